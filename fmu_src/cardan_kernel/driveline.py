@@ -1,0 +1,401 @@
+"""The cardan driveline as its FMU offers it: values, life cycle, steps and complete state."""
+
+from math import isfinite, nan
+
+from . import checks
+from .integrator import DONE, NOT_FINITE, TOO_MANY_STEPS
+from .memory import (
+    FRESH_LAYOUT,
+    FRESH_LOADS,
+    FRESH_MOTION,
+    INITIALIZING,
+    INSTANTIATED,
+    LEFT_INITIALIZATION,
+    MASTER_TOLERANCE,
+    MODE,
+    RUNNING,
+    STEPS,
+    TERMINATED,
+    TWIST,
+    UNCHECKED,
+    VARS,
+    WORK,
+)
+from .stepper import BEND1, BEND2, COMMAND, STIFFNESS, TORQUE_IN, TORQUE_OUT, Stepper
+from .variables import HALF_PI, INDEX, VARIABLES
+
+VARIABLE_COUNT = len(VARIABLES)
+FIRST_INPUT = INDEX["input.torque"]
+FIRST_OUTPUT = INDEX["input.angle"]
+FIRST_LOAD_OUTPUT = INDEX["joint1.torque_in"]
+FIRST_LAYOUT_OUTPUT = INDEX["layout.nonuniformity"]
+FIRST_COUNTER = INDEX["solver.steps"]
+
+# What a variable is, by value reference: type and who may set it.
+FIXED = 1
+TUNABLE = 2
+INPUT = 3
+OUTPUT = 4
+REAL = 10
+INTEGER = 20
+BOOLEAN = 30
+
+WARNING = 1
+ERROR = 3
+
+
+def _kind(variable):
+    kind = {"Real": REAL, "Integer": INTEGER, "Boolean": BOOLEAN}[variable.type]
+    if variable.causality == "output":
+        return kind + OUTPUT
+    if variable.causality == "input":
+        return kind + INPUT
+    return kind + (TUNABLE if variable.variability == "tunable" else FIXED)
+
+
+class Driveline:
+    """A cardan driveline with the life cycle of an FMI 2.0 co-simulation slave.
+
+    No method of the life cycle raises: what is refused is told through `log` and `last_error`, and
+    `do_step` returns False with the state as it was.
+
+    Parameters
+    ----------
+    log : callable, optional
+        Called as ``log(status, text)`` with the FMI 2.0 status 1 (warning) or 3 (error).
+
+    Attributes
+    ----------
+    last_error : str
+        Text of the last refusal.
+    """
+
+    def __init__(self, log=None):
+        self.log = log
+        self.last_error = ""
+        self.pending = ""
+        self.stale = True
+        self.stepper = Stepper()
+        self.z = self.stepper.store
+        self.kinds = [0] * 128
+        for reference in range(VARIABLE_COUNT):
+            variable = VARIABLES[reference]
+            self.kinds[reference] = _kind(variable)
+            self.z[VARS + reference] = float(variable.start or 0.0)
+        self.z[MODE] = INSTANTIATED
+        self.z[UNCHECKED] = 1.0
+
+    # Life cycle
+
+    def setup_experiment(self, start_time, stop_time=None, tolerance=None):
+        """Take the master's tolerance (1); it wins over ``model.tolerance``."""
+        self.z[MASTER_TOLERANCE] = 0.0
+        if tolerance is not None:
+            low, high = 1e-13, 0.1
+            if low <= tolerance <= high:
+                self.z[MASTER_TOLERANCE] = tolerance
+            else:
+                self.misuse(f"tolerance = {tolerance:g} is refused: it must be at least {low:g} and at most {high:g}; "
+                            f"model.tolerance is used instead")
+
+    def enter_initialization_mode(self):
+        """Open the parameters for setting."""
+        self.z[MODE] = INITIALIZING
+        self.stepper.forget_outputs()
+
+    def exit_initialization_mode(self):
+        """Judge all values and start; what is wrong is told here and refused by `do_step`."""
+        self.pending = ""
+        self.z[MODE] = LEFT_INITIALIZATION
+        self.begin()
+
+    def terminate(self):
+        """End the run; further steps are refused."""
+        self.z[MODE] = TERMINATED
+
+    def begin(self):
+        """Start if every value is good; returns whether it is."""
+        z = self.z
+        problems = checks.all_problems(self.number)
+        if problems:
+            self.refuse("; ".join(problems))
+            return False
+        z[UNCHECKED] = 0.0
+        self.stepper.start()
+        self.stale = False
+        z[MODE] = RUNNING
+        return True
+
+    def do_step(self, current_time, step_size):
+        """Go on by `step_size` (s).
+
+        Parameters
+        ----------
+        current_time : float
+            Communication point, s; only told in messages, the driveline counts its own steps.
+        step_size : float
+            Length of the communication step, s; any positive length, different each time.
+
+        Returns
+        -------
+        bool
+            False where the step is refused; `last_error` says why and the state is as it was.
+        """
+        try:
+            return self.advance(current_time, step_size)
+        except Exception as error:  # an exception that leaves a callback ends the host process
+            return self.refuse(f"internal error in do_step at t = {current_time} s: {error!r}")
+
+    def advance(self, current_time, step_size):
+        """`do_step` without its net."""
+        z = self.z
+        if self.pending:
+            text = self.pending
+            self.pending = ""
+            return self.refuse(text)
+        if z[MODE] != RUNNING and not self.may_run():
+            return False
+        if not (isfinite(step_size) and step_size > 0.0 and isfinite(current_time)):
+            return self.refuse(f"step of {step_size} s at t = {current_time} s is refused: the step must be a finite "
+                               f"number above 0")
+        if z[UNCHECKED] != 0.0:
+            problems = checks.all_problems(self.number)
+            if problems:
+                return self.refuse("; ".join(problems))
+            z[UNCHECKED] = 0.0
+        if not self.inputs_good(step_size):
+            return self.refuse(self.input_problems(step_size))
+        if self.stale:
+            self.stepper.configure()
+            self.stale = False
+        result = self.stepper.step(step_size)
+        if result != DONE:
+            return self.refuse(self.failure(result, current_time, step_size))
+        return True
+
+    def may_run(self):
+        """Whether steps are due; a start that was refused is tried again with the present values."""
+        mode = self.z[MODE]
+        if mode == LEFT_INITIALIZATION:
+            return self.begin()
+        if mode == TERMINATED:
+            return self.refuse("do_step after terminate is refused: reset the instance first")
+        return self.refuse("do_step before exit_initialization_mode is refused: initialize the instance first")
+
+    def failure(self, result, current_time, step_size):
+        """Why the integrator gave up, in words."""
+        where = f"in the step of {step_size:g} s from t = {current_time:g} s"
+        if result == NOT_FINITE:
+            return (f"the motion leaves the finite numbers {where}: look at input.torque, output.torque, their der1 and "
+                    f"by_speed, or give a shorter communication step")
+        if result == TOO_MANY_STEPS:
+            return f"more than 2e7 integrator steps {where}: give a shorter communication step or a larger tolerance"
+        return (f"the tolerance cannot be met {where}: the integrator step fell below 1e-14 of it; give a larger "
+                f"tolerance or model.fidelity = 1 where shaft.stiffness or shaft.damping are extreme")
+
+    # Judging
+
+    def inputs_good(self, h):
+        """Whether all inputs can be taken over the step `h` (s); fast, without words."""
+        z = self.z
+        total = 0.0
+        for i in range(3):
+            total += (z[TORQUE_IN + i] - z[TORQUE_IN + i]) + (z[TORQUE_OUT + i] - z[TORQUE_OUT + i])
+            total += (z[COMMAND + i] - z[COMMAND + i]) + (z[BEND1 + i] - z[BEND1 + i]) + (z[BEND2 + i] - z[BEND2 + i])
+        return total == 0.0 and self.bend_good(BEND1, h) and self.bend_good(BEND2, h)
+
+    def bend_good(self, place, h):
+        """Whether a joint angle stays below 90 deg over the step `h` (s)."""
+        z = self.z
+        a0 = z[place]
+        a1 = z[place + 1]
+        a2 = z[place + 2]
+        if not 0.0 <= a0 < HALF_PI:
+            return False
+        if a1 == 0.0 and a2 == 0.0:
+            return True
+        if not 0.0 <= a0 + h * (a1 + 0.5 * h * a2) < HALF_PI:
+            return False
+        if a2 != 0.0 and 0.0 < -a1 / a2 < h:
+            return 0.0 <= a0 - 0.5 * a1 * a1 / a2 < HALF_PI
+        return True
+
+    def input_problems(self, h):
+        """What `inputs_good` found, in words."""
+        z = self.z
+        found = [checks.problem(VARIABLES[r], z[VARS + r]) for r in range(FIRST_INPUT, FIRST_OUTPUT)]
+        found = [text for text in found if text]
+        if not found:
+            found = [checks.bend_problem(joint, z[at], z[at + 1], z[at + 2], h)
+                     for joint, at in ((1, BEND1), (2, BEND2))]
+        return "; ".join(text for text in found if text)
+
+    def refuse(self, text):
+        """Tell why something is refused; returns False."""
+        self.last_error = text
+        if self.log is not None:
+            self.log(ERROR, text)
+        return False
+
+    def misuse(self, text):
+        """A call that is not allowed changes nothing; the next step is refused with its text."""
+        self.refuse(text)
+        self.pending = text
+
+    # Values
+
+    def set_values(self, kind, references, values):
+        """Set variables of one type (``REAL``, ``INTEGER``, ``BOOLEAN``) by value reference."""
+        z = self.z
+        for place in range(len(references)):
+            reference = references[place]
+            value = values[place]
+            if not 0 <= reference < VARIABLE_COUNT:
+                self.misuse(f"value reference {reference} is unknown: they go from 0 to {VARIABLE_COUNT - 1}")
+                continue
+            access = self.kinds[reference] - kind
+            if access == INPUT:
+                z[VARS + reference] = value
+                if z[MODE] != RUNNING:
+                    self.stepper.forget_outputs()
+            elif access == FIXED or access == TUNABLE:
+                self.set_parameter(reference, value, access)
+            else:
+                self.misuse(self.not_settable(reference, kind))
+
+    def set_parameter(self, reference, value, access):
+        """Set a parameter; a fixed one only before the run."""
+        z = self.z
+        if z[MODE] == RUNNING or z[MODE] == TERMINATED:
+            if access == FIXED:
+                self.misuse(f"{VARIABLES[reference].name} is a fixed parameter and cannot be set after initialization: "
+                            f"reset the instance to change it")
+                return
+            if VARS + reference == STIFFNESS and isfinite(value) and isfinite(z[STIFFNESS]):
+                # Whoever changes the spring does work on it.
+                z[WORK] += 0.5 * (value - z[STIFFNESS]) * z[TWIST] * z[TWIST]
+        else:
+            self.stepper.forget_outputs()
+        z[VARS + reference] = value
+        z[UNCHECKED] = 1.0
+        self.stale = True
+
+    def not_settable(self, reference, kind):
+        """Why a variable cannot be set by a call of this type, in words."""
+        variable = VARIABLES[reference]
+        if variable.causality == "output":
+            return f"{variable.name} is an output and cannot be set"
+        return f"{variable.name} is of type {variable.type} and cannot be set by a call for another type"
+
+    def value(self, reference, kind):
+        """Value of a variable as a float, computed now if it has to be; NaN where there is none."""
+        z = self.z
+        if not 0 <= reference < VARIABLE_COUNT:
+            self.misuse(f"value reference {reference} is unknown: they go from 0 to {VARIABLE_COUNT - 1}")
+            return nan
+        if not kind < self.kinds[reference] < kind + 10:
+            self.misuse(f"{VARIABLES[reference].name} is of type {VARIABLES[reference].type}: ask for it by that type")
+            return nan
+        if reference < FIRST_OUTPUT:
+            return z[VARS + reference]
+        if reference >= FIRST_COUNTER:
+            return z[STEPS + reference - FIRST_COUNTER]
+        if reference < FIRST_LOAD_OUTPUT:
+            if z[FRESH_MOTION] == 0.0:
+                self.compute(FRESH_MOTION)
+        elif reference < FIRST_LAYOUT_OUTPUT:
+            if z[FRESH_LOADS] == 0.0:
+                self.compute(FRESH_LOADS)
+        elif z[FRESH_LAYOUT] == 0.0:
+            self.compute(FRESH_LAYOUT)
+        return z[VARS + reference]
+
+    def compute(self, group):
+        """Bring a group of outputs up to date; before the run they follow every value that is set."""
+        try:
+            if self.z[MODE] < RUNNING:
+                self.stepper.start()
+                self.stale = True
+            elif self.stale:
+                self.stepper.configure()
+                self.stale = False
+            self.stepper.refresh(group)
+        except (ValueError, OverflowError, ZeroDivisionError):
+            for reference in range(FIRST_OUTPUT, FIRST_COUNTER):
+                self.z[VARS + reference] = nan
+
+    def number(self, reference):
+        """Value of a variable as it stands in memory."""
+        return self.z[VARS + reference]
+
+    def get_real(self, references):
+        """Values of Real variables by value reference."""
+        return [self.value(reference, REAL) for reference in references]
+
+    def get_integer(self, references):
+        """Values of Integer variables by value reference."""
+        values = [self.value(reference, INTEGER) for reference in references]
+        return [int(value) if isfinite(value) else 0 for value in values]
+
+    def get_boolean(self, references):
+        """Values of Boolean variables by value reference."""
+        return [self.value(reference, BOOLEAN) == 1.0 for reference in references]
+
+    def set_real(self, references, values):
+        """Set Real variables by value reference."""
+        self.set_values(REAL, references, values)
+
+    def set_integer(self, references, values):
+        """Set Integer variables by value reference."""
+        self.set_values(INTEGER, references, values)
+
+    def set_boolean(self, references, values):
+        """Set Boolean variables by value reference."""
+        self.set_values(BOOLEAN, references, [1.0 if value else 0.0 for value in values])
+
+    # State
+
+    def get_state(self):
+        """The complete state as bytes; `set_state` of them repeats every later result bit for bit."""
+        return self.stepper.store.tobytes()
+
+    def set_state(self, state):
+        """Restore a state from `get_state`; refused where the length is not that of this version."""
+        if len(state) != 8 * len(self.stepper.store):
+            self.misuse(f"state of {len(state)} bytes is refused: this version's states have "
+                        f"{8 * len(self.stepper.store)} bytes")
+            return
+        memoryview(self.stepper.store).cast("B")[:] = state
+        self.pending = ""
+        self.stale = True
+
+    # For analyses in Python
+
+    def jacobian(self):
+        """Exact Jacobians of the equations of motion at the end of the last step.
+
+        Returns
+        -------
+        a, b, c, d : list of rows
+            Derivatives of the rates of `JACOBIAN_STATES` (a, b) and of `JACOBIAN_OUTPUTS` (c, d) by the states
+            (4 columns) and by `JACOBIAN_INPUTS` (3 columns), SI units. In a rigid driveline the twist and
+            ``shaft.speed_b`` are no states of their own (their columns are zero); where the input speed is
+            prescribed, ``input.acceleration`` is its rate and ``input.torque`` has no effect.
+        """
+        if self.stale:
+            self.stepper.configure()
+            self.stale = False
+        columns = self.stepper.columns()
+        rows = [[column[i] for column in columns] for i in range(19)]
+        return ([row[:4] for row in rows[:4]], [row[4:] for row in rows[:4]],
+                [row[:4] for row in rows[4:]], [row[4:] for row in rows[4:]])
+
+    def get(self, name):
+        """Value of the variable `name`."""
+        reference = INDEX[name]
+        return self.value(reference, self.kinds[reference] // 10 * 10)
+
+    def set(self, name, value):
+        """Set the variable `name`."""
+        reference = INDEX[name]
+        self.set_values(self.kinds[reference] // 10 * 10, [reference], [float(value)])
