@@ -4,6 +4,8 @@
 one; both give the same results to the last bit.
 """
 
+from typing import TYPE_CHECKING
+
 from .driveline import Driveline as Interpreted
 from .tangent import JACOBIAN_INPUTS, JACOBIAN_OUTPUTS, JACOBIAN_STATES
 from .variables import INDEX, UNITS, VARIABLES, Unit, Variable
@@ -15,9 +17,13 @@ except ImportError:
 
 __version__ = "0.1.0"
 
-Driveline = Interpreted if Compiled is None else Compiled
+if TYPE_CHECKING:
+    Driveline = Interpreted
+else:
+    Driveline = Interpreted if Compiled is None else Compiled
 KERNEL = "interpreted" if Compiled is None else "compiled"
 
 __all__ = [
-    "INDEX", "JACOBIAN_INPUTS", "JACOBIAN_OUTPUTS", "JACOBIAN_STATES", "KERNEL", "UNITS", "VARIABLES", "Compiled", "Driveline", "Interpreted", "Unit", "Variable",
+    "INDEX", "JACOBIAN_INPUTS", "JACOBIAN_OUTPUTS", "JACOBIAN_STATES", "KERNEL", "UNITS", "VARIABLES",
+    "Compiled", "Driveline", "Interpreted", "Unit", "Variable",
 ]

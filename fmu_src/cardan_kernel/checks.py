@@ -107,8 +107,8 @@ def bend_problem(joint: int, angle: float, rate: float, acceleration: float, ste
     for s in times:
         at = angle + s * (rate + 0.5 * s * acceleration)
         if not 0.0 <= at < HALF_PI:
-            return (f"joint{joint}.angle reaches {shown(at, 'rad')} at {s:.6g} s of the step (from {shown(angle, 'rad')} with "
-                    f"der1 = {rate:g} rad/s, der2 = {acceleration:g} rad/s2): it must be at least 0 and below 90 deg; "
-                    f"give a smaller rate or a shorter step")
+            return (f"joint{joint}.angle reaches {shown(at, 'rad')} at {s:.6g} s of the step, from "
+                    f"{shown(angle, 'rad')} with der1 = {rate:g} rad/s, der2 = {acceleration:g} rad/s2: it must be at "
+                    f"least 0 and below 90 deg; give a smaller rate or a shorter step")
     return None
 

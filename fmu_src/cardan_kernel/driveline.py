@@ -1,6 +1,7 @@
 """The cardan driveline as its FMU offers it: values, life cycle, steps and complete state."""
 
 from math import isfinite, nan
+from typing import Callable, List, Optional
 
 from . import checks
 from .integrator import DONE, NOT_FINITE, TOO_MANY_STEPS
@@ -70,7 +71,7 @@ class Driveline:
         Text of the last refusal.
     """
 
-    def __init__(self, log=None):
+    def __init__(self, log: Optional[Callable[[int, str], None]] = None) -> None:
         self.log = log
         self.last_error = ""
         self.pending = ""
@@ -87,7 +88,8 @@ class Driveline:
 
     # Life cycle
 
-    def setup_experiment(self, start_time, stop_time=None, tolerance=None):
+    def setup_experiment(self, start_time: float, stop_time: Optional[float] = None,
+                         tolerance: Optional[float] = None) -> None:
         """Take the master's tolerance (1); it wins over ``model.tolerance``."""
         self.z[MASTER_TOLERANCE] = 0.0
         if tolerance is not None:
@@ -98,22 +100,22 @@ class Driveline:
                 self.misuse(f"tolerance = {tolerance:g} is refused: it must be at least {low:g} and at most {high:g}; "
                             f"model.tolerance is used instead")
 
-    def enter_initialization_mode(self):
+    def enter_initialization_mode(self) -> None:
         """Open the parameters for setting."""
         self.z[MODE] = INITIALIZING
         self.stepper.forget_outputs()
 
-    def exit_initialization_mode(self):
+    def exit_initialization_mode(self) -> None:
         """Judge all values and start; what is wrong is told here and refused by `do_step`."""
         self.pending = ""
         self.z[MODE] = LEFT_INITIALIZATION
         self.begin()
 
-    def terminate(self):
+    def terminate(self) -> None:
         """End the run; further steps are refused."""
         self.z[MODE] = TERMINATED
 
-    def begin(self):
+    def begin(self) -> bool:
         """Start if every value is good; returns whether it is."""
         z = self.z
         problems = checks.all_problems(self.number)
@@ -126,7 +128,7 @@ class Driveline:
         z[MODE] = RUNNING
         return True
 
-    def do_step(self, current_time, step_size):
+    def do_step(self, current_time: float, step_size: float) -> bool:
         """Go on by `step_size` (s).
 
         Parameters
@@ -146,7 +148,7 @@ class Driveline:
         except Exception as error:  # an exception that leaves a callback ends the host process
             return self.refuse(f"internal error in do_step at t = {current_time} s: {error!r}")
 
-    def advance(self, current_time, step_size):
+    def advance(self, current_time: float, step_size: float) -> bool:
         """`do_step` without its net."""
         z = self.z
         if self.pending:
@@ -173,7 +175,7 @@ class Driveline:
             return self.refuse(self.failure(result, current_time, step_size))
         return True
 
-    def may_run(self):
+    def may_run(self) -> bool:
         """Whether steps are due; a start that was refused is tried again with the present values."""
         mode = self.z[MODE]
         if mode == LEFT_INITIALIZATION:
@@ -186,8 +188,8 @@ class Driveline:
         """Why the integrator gave up, in words."""
         where = f"in the step of {step_size:g} s from t = {current_time:g} s"
         if result == NOT_FINITE:
-            return (f"the motion leaves the finite numbers {where}: look at input.torque, output.torque, their der1 and "
-                    f"by_speed, or give a shorter communication step")
+            return (f"the motion leaves the finite numbers {where}: look at input.torque, output.torque, their der1 "
+                    f"and by_speed, or give a shorter communication step")
         if result == TOO_MANY_STEPS:
             return f"more than 2e7 integrator steps {where}: give a shorter communication step or a larger tolerance"
         return (f"the tolerance cannot be met {where}: the integrator step fell below 1e-14 of it; give a larger "
@@ -230,7 +232,7 @@ class Driveline:
                      for joint, at in ((1, BEND1), (2, BEND2))]
         return "; ".join(text for text in found if text)
 
-    def refuse(self, text):
+    def refuse(self, text: str) -> bool:
         """Tell why something is refused; returns False."""
         self.last_error = text
         if self.log is not None:
@@ -258,7 +260,7 @@ class Driveline:
                 z[VARS + reference] = value
                 if z[MODE] != RUNNING:
                     self.stepper.forget_outputs()
-            elif access == FIXED or access == TUNABLE:
+            elif 0 < access < OUTPUT:
                 self.set_parameter(reference, value, access)
             else:
                 self.misuse(self.not_settable(reference, kind))
@@ -287,7 +289,7 @@ class Driveline:
             return f"{variable.name} is an output and cannot be set"
         return f"{variable.name} is of type {variable.type} and cannot be set by a call for another type"
 
-    def value(self, reference, kind):
+    def value(self, reference: int, kind: int) -> float:
         """Value of a variable as a float, computed now if it has to be; NaN where there is none."""
         z = self.z
         if not 0 <= reference < VARIABLE_COUNT:
@@ -328,38 +330,38 @@ class Driveline:
         """Value of a variable as it stands in memory."""
         return self.z[VARS + reference]
 
-    def get_real(self, references):
+    def get_real(self, references: List[int]) -> List[float]:
         """Values of Real variables by value reference."""
         return [self.value(reference, REAL) for reference in references]
 
-    def get_integer(self, references):
+    def get_integer(self, references: List[int]) -> List[int]:
         """Values of Integer variables by value reference."""
         values = [self.value(reference, INTEGER) for reference in references]
         return [int(value) if isfinite(value) else 0 for value in values]
 
-    def get_boolean(self, references):
+    def get_boolean(self, references: List[int]) -> List[bool]:
         """Values of Boolean variables by value reference."""
         return [self.value(reference, BOOLEAN) == 1.0 for reference in references]
 
-    def set_real(self, references, values):
+    def set_real(self, references: List[int], values: List[float]) -> None:
         """Set Real variables by value reference."""
         self.set_values(REAL, references, values)
 
-    def set_integer(self, references, values):
+    def set_integer(self, references: List[int], values: List[int]) -> None:
         """Set Integer variables by value reference."""
         self.set_values(INTEGER, references, values)
 
-    def set_boolean(self, references, values):
+    def set_boolean(self, references: List[int], values: List[bool]) -> None:
         """Set Boolean variables by value reference."""
         self.set_values(BOOLEAN, references, [1.0 if value else 0.0 for value in values])
 
     # State
 
-    def get_state(self):
+    def get_state(self) -> bytes:
         """The complete state as bytes; `set_state` of them repeats every later result bit for bit."""
         return self.stepper.store.tobytes()
 
-    def set_state(self, state):
+    def set_state(self, state: bytes) -> None:
         """Restore a state from `get_state`; refused where the length is not that of this version."""
         if len(state) != 8 * len(self.stepper.store):
             self.misuse(f"state of {len(state)} bytes is refused: this version's states have "
@@ -390,12 +392,12 @@ class Driveline:
         return ([row[:4] for row in rows[:4]], [row[4:] for row in rows[:4]],
                 [row[:4] for row in rows[4:]], [row[4:] for row in rows[4:]])
 
-    def get(self, name):
+    def get(self, name: str) -> float:
         """Value of the variable `name`."""
         reference = INDEX[name]
         return self.value(reference, self.kinds[reference] // 10 * 10)
 
-    def set(self, name, value):
+    def set(self, name: str, value: float) -> None:
         """Set the variable `name`."""
         reference = INDEX[name]
         self.set_values(self.kinds[reference] // 10 * 10, [reference], [float(value)])

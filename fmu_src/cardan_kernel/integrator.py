@@ -162,7 +162,7 @@ class Integrator:
             error5 = 0.0
             error3 = 0.0
             for j in range(12):
-                if 0 < j and j < 5:
+                if j > 0 and j < 5:
                     continue
                 slope = f[5 * j + m]
                 d += self.b[j] * slope
@@ -172,7 +172,7 @@ class Integrator:
             if m == 4:
                 break
             if m == 0:
-                scale = 1.0
+                scale = 1.0 + fabs(z[0])
             elif m == 1:
                 scale = fabs(y[1] + z[1])
                 if scale < fabs(y[1]):

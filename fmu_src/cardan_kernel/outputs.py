@@ -7,7 +7,7 @@ and shafts with powers and energies, and the layout of the pair (docs/PHYSICS.md
 from math import atan, cos, sin, sqrt
 
 from .integrator import TURN, TURN_REST
-from .memory import CARRY, ENERGY, P, TURNS, VARS, WORK
+from .memory import CARRY, ENERGY, TURNS, VARS, WORK
 from .variables import INDEX
 
 OUT_ANGLE_IN = VARS + INDEX["input.angle"]

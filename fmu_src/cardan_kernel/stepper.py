@@ -27,12 +27,8 @@ from .memory import (
     STEP,
     STEPS,
     TURNS,
-    TWIST,
     VARS,
-    W1,
     WORK,
-    WY,
-    P,
 )
 from .motion import Motion
 from .outputs import write_layout, write_loads, write_motion

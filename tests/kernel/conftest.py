@@ -1,8 +1,8 @@
 """Fixtures of the kernel tests: both kernels and a way to run them."""
 
+import cardan_kernel
 import pytest
 
-import cardan_kernel
 from tests.kernel.runs import start
 
 

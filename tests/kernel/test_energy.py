@@ -2,9 +2,9 @@
 
 import math
 
+import cardan_kernel
 import pytest
 
-import cardan_kernel
 from tests.kernel.runs import go, start
 
 JOINTS = {"joint1.angle": math.radians(20), "joint2.angle": math.radians(15)}

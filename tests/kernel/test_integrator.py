@@ -2,11 +2,11 @@
 
 import math
 
+import cardan_kernel
 import pytest
+from cardan_kernel import tableau
 from mpmath import mp, mpf
 
-import cardan_kernel
-from cardan_kernel import tableau
 from tests.kernel.runs import start
 
 

@@ -58,12 +58,13 @@ def test_a_million_turns(kernel):
     b = mpf(math.radians(30.0))
     ratio = cos(b) / (1 - sin(b) ** 2 * cos(p) ** 2)
     assert abs(driveline.get("joint1.ratio") - ratio) < 1e-12
-    assert abs(driveline.get("joint1.trunnion.rate_out") / speed - sin(b) * sin(p) / sqrt(1 - sin(b) ** 2 * cos(p) ** 2)) < 1e-12
+    rate = sin(b) * sin(p) / sqrt(1 - sin(b) ** 2 * cos(p) ** 2)
+    assert abs(driveline.get("joint1.trunnion.rate_out") / speed - rate) < 1e-12
     bounded = driveline.get("output.angle") - driveline.get("input.angle")
     assert abs(bounded - lead(p, b)) < 2e-9  # both count turns: their last digit is 1e-9 rad
 
 
-@pytest.mark.parametrize("psi, theta", [(0.0, 0.0), (40.0, 40.0), (-70.0, 110.0)])
+@pytest.mark.parametrize(("psi", "theta"), [(0.0, 0.0), (40.0, 40.0), (-70.0, 110.0)])
 def test_homokinetic_pairs(kernel, psi, theta):
     """beta1 = beta2 and psi - theta = 0 (mod 180 deg): constant ratio 1 within 1e-13 (PHYSICS.md 4)."""
     for i in range(13):

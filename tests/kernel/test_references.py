@@ -4,9 +4,9 @@ At tolerance 1e-9 over one second: angles within 1e-8 rad and speeds within 1e-6
 communication steps of 1 ms and, since every law is exact between the points, of 50 ms.
 """
 
+import cardan_kernel
 import pytest
 
-import cardan_kernel
 from tests.kernel.runs import start
 from tests.reference.cases import CASES
 from tests.reference.table import load

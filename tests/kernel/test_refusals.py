@@ -2,10 +2,10 @@
 
 import math
 
-import pytest
-
 import cardan_kernel
+import pytest
 from cardan_kernel import INDEX, VARIABLES
+
 from tests.kernel.runs import start
 
 GOOD = {"joint1.angle": 0.3, "joint2.angle": 0.25, "initial.speed": 100.0}
@@ -63,7 +63,7 @@ def test_bad_input_during_the_run_leaves_the_state(name, bad):
     assert driveline.do_step(1e-3, 1e-3)
 
 
-@pytest.mark.parametrize("angle, words", [
+@pytest.mark.parametrize(("angle", "words"), [
     (math.pi / 2, "below 1.570796327 rad (90 deg)"), (2.0, "114.592 deg"), (-0.1, "shaft.plane_twist")])
 def test_joint_at_or_beyond_90_degrees(angle, words):
     driveline = start(cardan_kernel.Driveline, GOOD)
@@ -138,7 +138,7 @@ def test_no_inertia_left():
 
 @pytest.mark.parametrize("tolerance", [0.0, -1.0, 1.0, math.nan])
 def test_tolerance_of_the_master(tolerance):
-    driveline, told = begin(GOOD, tolerance)
+    _driveline, told = begin(GOOD, tolerance)
     assert "tolerance" in told[0][1] and "at least 1e-13 and at most 0.1" in told[0][1]
 
 

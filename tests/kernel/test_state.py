@@ -3,9 +3,9 @@
 import math
 import random
 
+import cardan_kernel
 import pytest
 
-import cardan_kernel
 from tests.kernel.runs import outputs, start
 
 BASE = {"joint1.angle": math.radians(20), "joint2.angle": math.radians(15), "initial.speed": 300.0, "hold.degree": 5,

@@ -2,9 +2,9 @@
 
 import math
 
+import cardan_kernel
 import pytest
 
-import cardan_kernel
 from tests.kernel.runs import go, outputs, start
 from tests.reference.table import load
 

@@ -1,0 +1,12 @@
+"""The kernel for the analysis of periodic motions, compiled where a compiled kernel fits, else interpreted."""
+
+from .bundle import POINT_IN, POINT_OUT
+from .law import MOST_HARMONICS
+
+try:
+    from ._compiled import Bundle, Variation
+except ImportError:
+    from .bundle import Bundle  # type: ignore[assignment]
+    from .variation import Variation  # type: ignore[assignment]
+
+__all__ = ["MOST_HARMONICS", "POINT_IN", "POINT_OUT", "Bundle", "Variation"]

@@ -1,0 +1,1 @@
+"""Measurements: speed against error, coupling, cost, and the hard cases."""
