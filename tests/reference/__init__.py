@@ -1,0 +1,1 @@
+"""Independent references for the driveline; see README.md."""
