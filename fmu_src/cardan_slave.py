@@ -7,8 +7,9 @@ An exception that leaves a callback ends in fmi2Fatal, and freeing the instance 
 host. So nothing leaves: the kernel answers bad input by itself, and the callbacks of an interpreted
 kernel, which a signal can interrupt anywhere, are guarded.
 
-The first log message of an instance (status OK, category ``logAll``) tells what runs, for example
-``cardan_kernel 0.1.0: compiled kernel``.
+The first log message of an instance (status OK, category ``logAll``, with setup_experiment) tells what runs, for
+example ``cardan_kernel 0.1.0: compiled kernel``. It must not be queued earlier: the exporter crashes when an instance
+that has a message from its constructor is freed without another call.
 
 In the FMU this file, the kernel and pythonfmu's modules carry names made from their content (the build
 renames them here and in the imports), so that neither the host's modules nor another FMU's are run.
@@ -88,11 +89,21 @@ def guarded(method, otherwise, report):
     return call
 
 
-def absent(name, otherwise, report):
+def announced(method, line, report):
+    """Give `method` so that it tells `line` first."""
+
+    def call(*arguments):
+        report(OK, line)
+        return method(*arguments)
+
+    return call
+
+
+def absent(name, otherwise, reason, report):
     """Give the stand-in for a kernel method where the kernel could not be made."""
 
     def call(*arguments):
-        report(ERROR, f"{name} is refused: the driveline could not be made")
+        report(ERROR, f"{name} is refused: the driveline could not be made: {reason}")
         return otherwise(*arguments)
 
     return call
@@ -104,20 +115,21 @@ class CardanDriveline(Fmi2Slave):
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
         self.report = report = reporter(self.log_queue)
-        core = None
+        core, reason = None, ""
         try:
             core = Driveline(report)
         except BaseException as error:  # an instance that cannot work still has to answer
-            report(ERROR, f"the driveline could not be made: {error!r}")
+            reason = repr(error)
         for own, name, otherwise in CALLBACKS:
             method = getattr(core, name, None)
             if method is None:
-                method = absent(name, otherwise, report)
+                method = absent(name, otherwise, reason, report)
             elif KERNEL == "interpreted":
                 method = guarded(method, otherwise, report)
             setattr(self, own, method)
         slower = "" if KERNEL == "compiled" else " (no compiled one fits here; same results, slower)"
-        report(OK, f"cardan_kernel {__version__}: {KERNEL} kernel{slower}")
+        line = f"cardan_kernel {__version__}: {KERNEL} kernel{slower}"
+        self.setup_experiment = announced(self.setup_experiment, line, report)
         # The exporter puts the unzipped FMU in front of the host's path, once per instance. All imports are done by
         # now. "visible" tells the exporter's call from the builder's, which takes its entry back by itself.
         if "visible" in kwargs:

@@ -6,7 +6,7 @@ from .law import MOST_HARMONICS
 try:
     from ._compiled import Bundle, Variation
 except ImportError:
-    from .bundle import Bundle  # type: ignore[assignment]
-    from .variation import Variation  # type: ignore[assignment]
+    from .bundle import Bundle
+    from .variation import Variation
 
 __all__ = ["MOST_HARMONICS", "POINT_IN", "POINT_OUT", "Bundle", "Variation"]

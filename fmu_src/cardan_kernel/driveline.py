@@ -91,6 +91,9 @@ class Driveline:
     def setup_experiment(self, start_time: float, stop_time: Optional[float] = None,
                          tolerance: Optional[float] = None) -> None:
         """Take the master's tolerance (1); it wins over ``model.tolerance``."""
+        if self.z[MODE] != INSTANTIATED:
+            self.misuse("setup_experiment is refused after enter_initialization_mode: reset the instance first")
+            return
         self.z[MASTER_TOLERANCE] = 0.0
         if tolerance is not None:
             low, high = 1e-13, 0.1
@@ -102,17 +105,26 @@ class Driveline:
 
     def enter_initialization_mode(self) -> None:
         """Open the parameters for setting."""
+        if self.z[MODE] != INSTANTIATED:
+            self.misuse("enter_initialization_mode is refused a second time: reset the instance first")
+            return
         self.z[MODE] = INITIALIZING
         self.stepper.forget_outputs()
 
     def exit_initialization_mode(self) -> None:
         """Judge all values and start; what is wrong is told here and refused by `do_step`."""
+        if self.z[MODE] != INITIALIZING:
+            self.misuse("exit_initialization_mode is refused outside of initialization mode: enter it first")
+            return
         self.pending = ""
         self.z[MODE] = LEFT_INITIALIZATION
         self.begin()
 
     def terminate(self) -> None:
         """End the run; further steps are refused."""
+        if self.z[MODE] != RUNNING and self.z[MODE] != LEFT_INITIALIZATION:
+            self.misuse("terminate is refused before exit_initialization_mode and after terminate")
+            return
         self.z[MODE] = TERMINATED
 
     def begin(self) -> bool:

@@ -15,7 +15,7 @@ cdef enum:
     MOST_COLUMNS = 7
     WIDTH = 32
 
-cdef double FINEST_STEP, MOST_VARIATION_STEPS
+cdef double FINEST_STEP
 
 @cython.final
 cdef class Variation:
@@ -28,7 +28,7 @@ cdef class Variation:
     cdef int places[50]
     cdef int width, watched
     cdef double fast, s, h, previous_error
-    cdef public double tolerance
+    cdef public double tolerance, most_steps
     cdef readonly double rotation, steps
 
     @cython.locals(b=Bundle, y='double*', m=Motion, j=int, i=int, kind=int, count=int, fast=double)

@@ -23,7 +23,6 @@ from .integrator import (
 MOST_COLUMNS = 7
 WIDTH = 32  # four states and four numbers for each column
 FINEST_STEP = 1e-13  # of the time to go
-MOST_VARIATION_STEPS = 2000000.0
 
 
 class Variation:
@@ -41,6 +40,8 @@ class Variation:
         for each zero of the twist.
     steps : float
         Counter since `start`.
+    most_steps : float
+        `run` gives up beyond so many.
     """
 
     def __init__(self, bundle):
@@ -60,6 +61,7 @@ class Variation:
         self.tolerance = 1e-13
         self.rotation = 0.0
         self.steps = 0.0
+        self.most_steps = 1000000.0
         for j in range(50):
             self.places[j] = self.integrator.columns[j] // 5 * WIDTH
 
@@ -260,7 +262,7 @@ class Variation:
                 if self.h < FINEST_STEP * span or self.s + self.h == self.s:
                     return STEP_TOO_SMALL if isfinite(error) else NOT_FINITE
                 self.bundle.slopes(self.s, self.y, self.f, 0)
-            if self.steps > MOST_VARIATION_STEPS:
+            if self.steps > self.most_steps:
                 return TOO_MANY_STEPS
         return DONE
 

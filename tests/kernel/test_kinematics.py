@@ -8,8 +8,14 @@ from mpmath import atan2, cos, mp, mpf, pi, sin, sqrt, tan
 from tests.kernel.runs import go, start
 from tests.reference.table import load
 
-mp.dps = 50
 RIGID_DRIVEN = {"model.fidelity": 1, "model.drive": 1}
+
+
+@pytest.fixture(autouse=True)
+def fifty_digits():
+    """Reference arithmetic of every test here."""
+    with mp.workdps(50):
+        yield
 
 
 def lead(p, beta):

@@ -7,6 +7,7 @@ from cardan.models.constant import ConstantTorque
 from cardan.models.csv_torque import CsvTorque
 from cardan.models.driver import Driver
 from cardan.models.dyno import Dyno
+from cardan.models.foreign import ForeignFmu
 from cardan.models.four_stroke import FourStroke
 from cardan.models.governor import IdleGovernor
 from cardan.models.prescribed_speed import PrescribedSpeed
@@ -17,9 +18,9 @@ from cardan.models.stribeck import StribeckLoad
 from cardan.models.torque_map import TorqueMap
 
 _ENGINES: tuple[type[Model], ...] = (ConstantTorque, TorqueMap, FourStroke, IdleGovernor, PrescribedSpeed, CsvTorque,
-                                     StepTorque)
+                                     StepTorque, ForeignFmu)
 _LOADS: tuple[type[Model], ...] = (ConstantTorque, LinearLoad, QuadraticLoad, PowerLoad, RoadLoad, Dyno, StribeckLoad,
-                                   StepTorque, CsvTorque)
+                                   StepTorque, CsvTorque, ForeignFmu)
 
 ENGINES: dict[str, type[Model]] = {model.kind: model for model in _ENGINES}
 LOADS: dict[str, type[Model]] = {model.kind: model for model in _LOADS}

@@ -38,6 +38,7 @@ class FourStroke(Model):
                                minimum=0.0)
     throttle: float = quantity("1", "throttle where no driver sets it", 1.0, minimum=0.0, maximum=1.0)
     _ripple: Ripple = field(init=False, repr=False)
+    _steady: Torque = field(init=False, repr=False)
 
     def prepare(self) -> None:
         if self.torque_ is not None and self.map is not None:
@@ -59,13 +60,11 @@ class FourStroke(Model):
             for k, amplitude, phase in zip(self.orders, given, self.phases or (0.0,) * count):
                 a, b = into.get(k, (0.0, 0.0))
                 into[k] = (a + amplitude * math.cos(phase), b + amplitude * math.sin(phase))
-        self.put(_ripple=Ripple(fixed, relative, inertial), states=self.map.states if self.map else (),
-                 signals={"engine.mean_torque": "N.m"})
+        self.put(_ripple=Ripple(fixed, relative, inertial), _steady=Torque(self.torque_ or 0.0, 0.0, 0.0),
+                 states=self.map.states if self.map else (), signals={"engine.mean_torque": "N.m"})
 
     def _mean(self, t: float, x: State, shaft: Shaft, bus: Bus) -> Torque:
-        if self.map is not None:
-            return self.map.torque(t, x, shaft, bus)
-        return Torque(self.torque_ or 0.0, 0.0, 0.0)
+        return self._steady if self.map is None else self.map.torque(t, x, shaft, bus)
 
     def start(self, t: float, shaft: Shaft, bus: Bus) -> list[float]:
         return self.map.start(t, shaft, bus) if self.map is not None else []
@@ -75,9 +74,10 @@ class FourStroke(Model):
 
     def torque(self, t: float, x: State, shaft: Shaft, bus: Bus) -> Torque:
         mean, rate, by_speed = self._mean(t, x, shaft, bus)
-        ripple, by_angle, own, by_mean = self._ripple(shaft.angle + self.phase, shaft.speed, mean + self.friction)
+        angle, speed, _ = shaft
+        ripple, by_angle, own, by_mean = self._ripple(angle + self.phase, speed, mean + self.friction)
         share = 1.0 + by_mean
-        return Torque(mean + ripple, share * rate + by_angle * shaft.speed, share * by_speed + own)
+        return Torque(mean + ripple, share * rate + by_angle * speed, share * by_speed + own)
 
     def time_scale(self) -> float:
         return self.map.time_scale() if self.map is not None else super().time_scale()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Sequence
 
@@ -50,40 +51,46 @@ class Surface:
                     row.append(_bicubic(corner))
                 else:
                     a, b, c, d = z[j][i], z[j][i + 1], z[j + 1][i], z[j + 1][i + 1]
-                    row.append((a, b - a, c - a, d - c - b + a))
+                    row.append((a, b - a, 0.0, 0.0, c - a, d - c - b + a, *(0.0,) * 10))
             self._patches.append(row)
-        self._smooth = smooth
+        self._last: tuple[float, ...] = (math.nan,) * 12
 
     def __call__(self, x: float, y: float) -> tuple[float, float, float]:
         """Return z and its partial derivatives by x and y (zero across an edge that was passed)."""
+        # The cuts of the surface at the last y are kept: most calls come with the same throttle and a near speed.
+        at, low, high, h, a0, a1, a2, a3, b0, b1, b2, b3 = self._last
+        inside = 1.0
+        if y != at or not low <= x < high:
+            xs = self.x
+            if x <= xs[0]:
+                inside, x = float(x == xs[0]), xs[0]
+            elif x >= xs[-1]:
+                inside, x = float(x == xs[-1]), xs[-1]
+            _, low, _, h, a0, a1, a2, a3, b0, b1, b2, b3 = self._last = self._cut(x, y)
+        s = (x - low) / h
+        return (a0 + s * (a1 + s * (a2 + s * a3)), inside * (a1 + s * (2.0 * a2 + 3.0 * s * a3)) / h,
+                b0 + s * (b1 + s * (b2 + s * b3)))
+
+    def _cut(self, x: float, y: float) -> tuple[float, ...]:
+        """Return y, the range of x and its length, and the cubics of z and of its slope by y over that range."""
         xs, ys = self.x, self.y
-        inside_x = inside_y = 1.0
-        if x <= xs[0]:
-            inside_x, x = float(x == xs[0]), xs[0]
-        elif x >= xs[-1]:
-            inside_x, x = float(x == xs[-1]), xs[-1]
-        if y <= ys[0]:
-            inside_y, y = float(y == ys[0]), ys[0]
-        elif y >= ys[-1]:
-            inside_y, y = float(y == ys[-1]), ys[-1]
         i = min(bisect_right(xs, x), len(xs) - 1) - 1
-        j = min(bisect_right(ys, y), len(ys) - 1) - 1
-        h, k = xs[i + 1] - xs[i], ys[j + 1] - ys[j]
-        s, u = (x - xs[i]) / h, (y - ys[j]) / k
-        c = self._patches[j][i]
-        if not self._smooth:
-            return (c[0] + c[1] * s + c[2] * u + c[3] * s * u, inside_x * (c[1] + c[3] * u) / h,
-                    inside_y * (c[2] + c[3] * s) / k)
-        p0 = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
-        p1 = c[4] + s * (c[5] + s * (c[6] + s * c[7]))
-        p2 = c[8] + s * (c[9] + s * (c[10] + s * c[11]))
-        p3 = c[12] + s * (c[13] + s * (c[14] + s * c[15]))
-        d0 = c[1] + s * (2.0 * c[2] + 3.0 * s * c[3])
-        d1 = c[5] + s * (2.0 * c[6] + 3.0 * s * c[7])
-        d2 = c[9] + s * (2.0 * c[10] + 3.0 * s * c[11])
-        d3 = c[13] + s * (2.0 * c[14] + 3.0 * s * c[15])
-        return (p0 + u * (p1 + u * (p2 + u * p3)), inside_x * (d0 + u * (d1 + u * (d2 + u * d3))) / h,
-                inside_y * (p1 + u * (2.0 * p2 + 3.0 * u * p3)) / k)
+        inside, v = 1.0, y
+        if y <= ys[0]:
+            inside, v = float(y == ys[0]), ys[0]
+        elif y >= ys[-1]:
+            inside, v = float(y == ys[-1]), ys[-1]
+        j = min(bisect_right(ys, v), len(ys) - 1) - 1
+        k = ys[j + 1] - ys[j]
+        u = (v - ys[j]) / k
+        c0, c1, c2, c3, d0, d1, d2, d3, e0, e1, e2, e3, f0, f1, f2, f3 = self._patches[j][i]
+        inside /= k
+        w, q = 2.0 * u, 3.0 * u * u
+        return (y, xs[i], xs[i + 1], xs[i + 1] - xs[i],
+                c0 + u * (d0 + u * (e0 + u * f0)), c1 + u * (d1 + u * (e1 + u * f1)),
+                c2 + u * (d2 + u * (e2 + u * f2)), c3 + u * (d3 + u * (e3 + u * f3)),
+                inside * (d0 + w * e0 + q * f0), inside * (d1 + w * e1 + q * f1),
+                inside * (d2 + w * e2 + q * f2), inside * (d3 + w * e3 + q * f3))
 
 
 def _bicubic(corner: list[list[tuple[float, float, float, float]]]) -> tuple[float, ...]:

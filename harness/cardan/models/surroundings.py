@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from cardan.models.base import INFINITY, Bus, Discrete, Model, Shaft, Torque
 from cardan.models.driver import Driver
+from cardan.models.stepping import controlled, equal_steps
 
 Motion = Callable[[float], Shaft]  # s in [0, h] since the start of the step -> motion of a shaft end
 
@@ -17,6 +17,7 @@ class Saved(NamedTuple):
 
     x: tuple[float, ...]
     discrete: Discrete
+    steps: tuple[float, ...]  # proposed sub-step and sizes of the states
 
 
 class Surroundings:
@@ -28,6 +29,8 @@ class Surroundings:
         Any object with the attributes ``engine``, ``load`` (`Model`) and ``driver`` (`Driver` or None).
     refine : int
         Divides the sub-steps of the models' own states further (accuracy studies).
+    tolerance : float
+        Relative error of one sub-step of the models' own states; 0 for sub-steps of fixed length.
 
     Attributes
     ----------
@@ -43,7 +46,7 @@ class Surroundings:
         Names and units of what `observe` returns.
     """
 
-    def __init__(self, scenario: Any, refine: int = 1) -> None:
+    def __init__(self, scenario: Any, refine: int = 1, tolerance: float = 0.0) -> None:
         self.engine: Model = scenario.engine
         self.load: Model = scenario.load
         self.driver: Driver | None = scenario.driver
@@ -56,6 +59,9 @@ class Surroundings:
         self.drive: int = self.engine.drive
         self._members: list[Model] = [m for m in (self.driver, self.engine, self.load) if m is not None]
         self.step: float = min(m.time_scale() for m in self._members) / refine
+        self.tolerance = tolerance
+        self._scales = [1e-3] * len(self.states)
+        self._next = self.step
         self.signals: dict[str, str] = {}
         for member in self._members:
             self.signals.update(member.signals)
@@ -95,7 +101,7 @@ class Surroundings:
     def advance(self, t: float, h: float, motion_in: Motion, motion_out: Motion) -> None:
         """Integrate all own states from t to t + h along given shaft motions.
 
-        Classic fourth-order Runge-Kutta with equal sub-steps no longer than the smallest time scale.
+        Where a `tolerance` is set, with error control; else in equal steps no longer than the smallest time scale.
 
         Parameters
         ----------
@@ -106,24 +112,14 @@ class Surroundings:
         """
         if not self.x:
             return
-        count = max(1, math.ceil(h / self.step * (1.0 - 1e-12)))
-        derivative = self._derivative
-        x = self.x
-        before_in, before_out = motion_in(0.0), motion_out(0.0)
-        for i in range(count):
-            s, end = i * h / count, (i + 1) * h / count
-            d = end - s
-            middle = s + 0.5 * d
-            middle_in, middle_out = motion_in(middle), motion_out(middle)
-            after_in, after_out = motion_in(end), motion_out(end)
-            k1 = derivative(t + s, x, before_in, before_out)
-            k2 = derivative(t + middle, [u + 0.5 * d * v for u, v in zip(x, k1)], middle_in, middle_out)
-            k3 = derivative(t + middle, [u + 0.5 * d * v for u, v in zip(x, k2)], middle_in, middle_out)
-            k4 = derivative(t + end, [u + d * v for u, v in zip(x, k3)], after_in, after_out)
-            d /= 6.0
-            x = [u + d * (p + 2.0 * (q + r) + w) for u, p, q, r, w in zip(x, k1, k2, k3, k4)]
-            before_in, before_out = after_in, after_out
-        self.x = x
+
+        def derivative(s: float, x: list[float]) -> list[float]:
+            return self._derivative(t + s, x, motion_in(s), motion_out(s))
+
+        if self.tolerance > 0.0:
+            self.x, self._next = controlled(derivative, h, self.x, self._scales, self.tolerance, self._next)
+        else:
+            self.x = equal_steps(derivative, h, self.x, self.step)
 
     def _derivative(self, t: float, x: list[float], shaft_in: Shaft, shaft_out: Shaft) -> list[float]:
         a, b, bus = self._a, self._b, self.bus
@@ -138,12 +134,13 @@ class Surroundings:
 
     def save(self) -> Saved:
         """Return a copy of the states, for `restore`."""
-        return Saved(tuple(self.x), self.bus.discrete)
+        return Saved(tuple(self.x), self.bus.discrete, (self._next, *self._scales))
 
     def restore(self, saved: Saved) -> None:
         """Go back to saved states."""
         self.x = list(saved.x)
         self.bus.discrete = saved.discrete
+        self._next, *self._scales = saved.steps
 
     def next_event(self, t: float) -> float:
         """Return the first known time after t where a torque or its slope jumps, s (inf: none)."""

@@ -47,7 +47,11 @@ class Scenario:
     coupling : str
         One of `cardan.scenario.COUPLINGS`.
     tolerance : float
-        Relative tolerance of the integrator.
+        Relative tolerance of the integrator; with ``adaptive`` and ``auto`` of the whole run.
+    sweeps, sweep_tolerance : int, float
+        Corrections per step of ``iterated``, and the change of the torques at which they end.
+    shortest_step : float or None
+        Floor of the communication step of ``adaptive`` and ``auto``, s.
     outputs : tuple of str
         FMU variables and signals of the models to record.
     driveline : mapping of str to float, int or bool
@@ -72,6 +76,9 @@ class Scenario:
     communication_step: float
     coupling: str
     tolerance: float
+    sweeps: int
+    sweep_tolerance: float
+    shortest_step: float | None
     outputs: tuple[str, ...]
     driveline: Mapping[str, float | int | bool]
     engine: Model
@@ -155,13 +162,14 @@ class Scenario:
         if complete:  # without all models their signals are not known
             outputs = read_outputs(given.get("scene", {}).get("outputs"), signals, collector)
         collector.finish()
-        assert scene is not None and engine is not None and load is not None
+        assert scene is not None and scene.tolerance is not None and engine is not None and load is not None
         if engine.drive == 1:
             driveline["model.drive"] = 1
         if isinstance(load, RoadLoad):
             driveline.setdefault("output.inertia", load.inertia)
         return cls(title=scene.title or name, stop_time=scene.stop_time, communication_step=scene.communication_step,
-                   coupling=scene.coupling, tolerance=scene.tolerance, outputs=outputs,
+                   coupling=scene.coupling, tolerance=scene.tolerance, sweeps=scene.sweeps,
+                   sweep_tolerance=scene.sweep_tolerance, shortest_step=scene.shortest_step, outputs=outputs,
                    driveline=MappingProxyType(driveline), engine=engine, load_model=load, driver=driver, name=name,
                    source=source, overrides=MappingProxyType(dict(overrides or {})), base=Path(base),
                    _tables=MappingProxyType(copy.deepcopy(dict(tables))))

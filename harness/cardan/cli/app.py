@@ -1,0 +1,51 @@
+"""The commands of ``cardan``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from cardan.cli.build import build
+from cardan.cli.check import check
+from cardan.cli.importers import importers
+from cardan.cli.info import info
+from cardan.cli.linearize import linearize
+from cardan.cli.orders import orders
+from cardan.cli.package import package
+from cardan.cli.scenes import scenes
+from cardan.cli.simulate import simulate
+from cardan.cli.stability import stability
+
+# Plain help texts: importing rich for them would double the time of `cardan --help`.
+app = typer.Typer(no_args_is_help=True, add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
+                  context_settings={"help_option_names": ["-h", "--help"]})
+for command, summary in (
+    (simulate, "Run a scene; write result and picture."),
+    (linearize, "Frequency response about the steady state."),
+    (stability, "Regions of parametric instability."),
+    (orders, "Orders of a run, Campbell diagram."),
+    (build, "Build the driveline FMU."),
+    (check, "Check an FMU against FMI 2.0."),
+    (info, "Say what runs here, or describe an FMU."),
+    (scenes, "List the shipped scenes."),
+    (package, "Write a scene as an SSP system package."),
+    (importers, "Run the FMU in other importers; compare."),
+):
+    app.command(short_help=summary)(command)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from cardan.provenance import package_version
+
+        typer.echo(f"cardan {package_version('cardan-driveline')}")
+        raise typer.Exit
+
+
+@app.callback()
+def cardan(
+    version: Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True,
+                                          help="Print the version and leave.")] = False,
+) -> None:
+    """Simulate drivelines with universal joints: the FMU, what drives and loads it, and what comes out."""
