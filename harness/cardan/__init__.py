@@ -8,6 +8,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cardan.analyses.campbell import campbell as campbell
+    from cardan.analyses.linearize import linearize as linearize
+    from cardan.analyses.order_spectrum import orders as orders
+    from cardan.analyses.stability import stability as stability
     from cardan.instance import Instance as Instance
     from cardan.result import Result as Result
     from cardan.scenario import Scenario as Scenario
@@ -15,10 +19,12 @@ if TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["Instance", "Result", "Scenario", "__version__", "simulate"]
+__all__ = ["Instance", "Result", "Scenario", "__version__", "campbell", "linearize", "orders", "simulate", "stability"]
 
 _HOMES = {"Instance": "cardan.instance", "Result": "cardan.result", "Scenario": "cardan.scenario",
-          "simulate": "cardan.simulation"}
+          "campbell": "cardan.analyses.campbell", "linearize": "cardan.analyses.linearize",
+          "orders": "cardan.analyses.order_spectrum", "simulate": "cardan.simulation",
+          "stability": "cardan.analyses.stability"}
 
 
 def __getattr__(name: str) -> Any:

@@ -1,7 +1,7 @@
 """``auto`` delivers the scene's tolerance on every shipped scene: each output within ten times of it.
 
-Errors are the largest over the run, relative to the largest value of the output, against a run at 5e-10. Long scenes are
-cut after their liveliest part (the pickup's launch and first shift). ``energy.residual`` is itself an error.
+Errors are the largest over the run, relative to the largest value of the output, against a run at 5e-10. Long scenes
+are cut after their liveliest part (the pickup's launch and first shift). ``energy.residual`` is itself an error.
 """
 
 from __future__ import annotations

@@ -108,6 +108,22 @@ def test_order_of_calls():
     assert "after terminate" in driveline.last_error
 
 
+def test_life_cycle_in_another_order():
+    """Calls out of order change nothing and are told; the next step is refused once."""
+    driveline = cardan_kernel.Driveline()
+    driveline.exit_initialization_mode()
+    assert "outside of initialization mode" in driveline.last_error
+    driveline.terminate()
+    assert "before exit_initialization_mode" in driveline.last_error
+    driveline = start(cardan_kernel.Driveline, GOOD)
+    for call in (driveline.enter_initialization_mode, driveline.exit_initialization_mode,
+                 lambda: driveline.setup_experiment(0.0)):
+        call()
+        assert "refused" in driveline.last_error
+        assert not driveline.do_step(0.0, 1e-3)
+        assert driveline.do_step(0.0, 1e-3)
+
+
 def test_late_change_of_a_fixed_parameter():
     driveline = start(cardan_kernel.Driveline, GOOD)
     driveline.set("input.inertia", 5.0)

@@ -109,11 +109,12 @@ def members(part: ScenePart, *, version: str, stop_time: float, step: float) -> 
 
 
 def _page(part: ScenePart, version: str) -> str:
-    rows = "\n".join(f"<tr><td><code>{escape(each.name)}</code></td><td>{each.causality}</td><td>{escape(each.unit)}</td>"
-                     f"<td>{'' if each.start is None else each.start}</td><td>{escape(each.description)}</td></tr>"
-                     for each in part.variables)
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{part.model_name}</title></head><body>\n'
-            f"<h1>{part.model_name} {version}</h1>\n<p>{escape(part.text)}. A part of a system package; FMI 2.0 "
+    rows = "\n".join(f"<tr><td><code>{escape(each.name)}</code></td><td>{each.causality}</td>"
+                     f"<td>{escape(each.unit)}</td><td>{'' if each.start is None else each.start}</td>"
+                     f"<td>{escape(each.description)}</td></tr>" for each in part.variables)
+    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            f"<title>{part.model_name}</title></head><body>\n<h1>{part.model_name} {version}</h1>\n"
+            f"<p>{escape(part.text)}. A part of a system package; FMI 2.0 "
             "co-simulation, SI units. Inputs are held over a step, outputs hold for the present inputs.</p>\n<table>"
             "<tr><th>Name</th><th>Kind</th><th>Unit</th><th>Start</th><th>Meaning</th></tr>\n"
             f"{rows}\n</table></body></html>\n")

@@ -27,7 +27,7 @@ def importers(
     """
     with expected_errors(as_json):
         from cardan.archive import open_archive
-        from cardan.importers import compare, markdown
+        from cardan.importers import compare, markdown, unavailable
         from cardan.importers.runner import OTHERS
 
         if fmu is None:
@@ -37,6 +37,8 @@ def importers(
         open_archive(fmu).close()
         under: list[str | None] = [*pythons] if pythons else [None]
         found = [outcome for python in under for outcome in compare(fmu, only or OTHERS, python)]
+        if not only:
+            found += unavailable()
     if as_json:
         typer.echo(json.dumps({"fmu": str(fmu), "importers": [dataclasses.asdict(outcome) for outcome in found]}))
     elif as_markdown:

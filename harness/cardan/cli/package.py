@@ -40,7 +40,7 @@ def package(
         assert scenario is not None
         made = make(scenario, output or Path(f"{scenario.name}.ssp"), fmu)
     if scenario.coupling not in ("held", "gauss-seidel"):
-        typer.echo(f"note: the scene's step is meant for coupling = {scenario.coupling!r}; tools hold the values over a "
-                   "step, which may need a shorter one (try --set scene.coupling=held in cardan simulate)", err=True)
+        typer.echo(f"note: the scene's step is meant for coupling = {scenario.coupling!r}; tools hold values over it and may"
+                   " need a shorter one (cardan simulate --set scene.coupling=held shows it)", err=True)
     typer.echo(f"{made}: {made.stat().st_size / 1024:.0f} kB, {scenario.stop_time:g} s in steps of "
                f"{scenario.communication_step:g} s, parameter set scene")

@@ -7,7 +7,7 @@ go together in one process, and a crash is to end one row of the table, not the 
 
 from __future__ import annotations
 
-from cardan.importers.runner import Outcome, compare
+from cardan.importers.runner import Outcome, compare, unavailable
 from cardan.importers.table import markdown
 
-__all__ = ["Outcome", "compare", "markdown"]
+__all__ = ["Outcome", "compare", "markdown", "unavailable"]

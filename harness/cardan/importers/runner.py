@@ -81,7 +81,7 @@ def compare(fmu: str | os.PathLike[str], names: Iterable[str] = OTHERS, python: 
     Returns
     -------
     list of Outcome
-        FMPy first, the others in their order, then those that cannot be had (`UNAVAILABLE`).
+        FMPy first, the others in their order.
 
     Raises
     ------
@@ -101,8 +101,12 @@ def compare(fmu: str | os.PathLike[str], names: Iterable[str] = OTHERS, python: 
     found = [_outcome(REFERENCE, reference, "reference")]
     for name in wanted:
         found.append(_judge(name, _child(name, path, python), reference["rows"]))
-    missing = [Outcome(tool, "", "", "", "skipped", note=why) for tool, why in UNAVAILABLE.items()]
-    return found + (missing if wanted == list(OTHERS) else [])
+    return found
+
+
+def unavailable() -> list[Outcome]:
+    """Return a row for each importer that cannot be had (`UNAVAILABLE`)."""
+    return [Outcome(tool, "", "", "", "skipped", note=why) for tool, why in UNAVAILABLE.items()]
 
 
 def _child(name: str, fmu: Path, python: str | None) -> dict[str, Any]:
