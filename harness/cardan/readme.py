@@ -84,9 +84,13 @@ def filled(text: str) -> str:
 
 
 def main() -> None:
-    """Write the generated parts into the README named on the command line, or ./README.md."""
-    path = Path(sys.argv[1] if len(sys.argv) > 1 else "README.md")
-    path.write_text(filled(path.read_text(encoding="utf-8")), encoding="utf-8")
+    """Write the generated parts of the README in the folder named on the command line (here), and docs/scenes.md."""
+    from cardan.scenario.reference import scene_reference
+
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    readme = folder / "README.md"
+    readme.write_text(filled(readme.read_text(encoding="utf-8")), encoding="utf-8")
+    (folder / "docs" / "scenes.md").write_text(scene_reference(), encoding="utf-8")
 
 
 if __name__ == "__main__":
