@@ -10,6 +10,8 @@ from rich.table import Table
 
 from cardan.result import Result
 
+NOTHING = 1e-12  # of the largest figure of a quantity
+
 
 def print_summary(result: Result, files: dict[str, str]) -> None:
     """Print speeds, torques and whatever was recorded, then times, energy and kernel.
@@ -31,7 +33,9 @@ def print_summary(result: Result, files: dict[str, str]) -> None:
         table.add_column(heading, justify="right", no_wrap=True)
     for name, figures in result.figures().items():
         unit, factor = result.shown(name)
-        table.add_row(name, unit, *(_number(factor * figures[key]) for key in ("min", "max", "mean", "final")))
+        shown = [figures[key] for key in ("min", "max", "mean", "final")]
+        dust = NOTHING * max(abs(value) for value in shown)  # rounding around zero
+        table.add_row(name, unit, *(_number(0.0 if abs(value) <= dust else factor * value) for value in shown))
     console.print(table)
     for label, text in _lines(result, files):
         console.print(f"{label:<16} {text}", soft_wrap=True, markup=False)
