@@ -16,8 +16,8 @@ from pathlib import Path
 
 # Order matters: a class stands before the module that names it as a C type.
 HOT_MODULES = (
-    "memory", "joint", "hold", "motion", "integrator", "outputs", "jump", "bends", "tangent", "stepper",
-    "driveline", "law", "bundle", "variation",
+    "memory", "places", "joint", "hold", "motion", "integrator", "outputs", "jump", "history", "bends", "tangent",
+    "stepper", "values", "driveline", "law", "bundle", "variation",
 )
 
 # Stands in the compiled file as plain text, so that it can be read without loading the file.

@@ -6,7 +6,8 @@ Jacobians: 0 to 3 are those of ``JACOBIAN_STATES``, 4 to 6 those of ``JACOBIAN_I
 
 from .law import Law
 from .memory import VARS
-from .stepper import BEND1, BEND2, Stepper
+from .places import BEND1, BEND2
+from .stepper import Stepper
 
 POINT_IN = 9  # numbers per point that `fields` takes
 POINT_OUT = 152  # and gives: 4 rates, 15 outputs, then 7 columns of 4 and 15

@@ -3,6 +3,7 @@
 from array import array
 from math import fabs, pow
 
+from .history import History
 from .integrator import DONE, Integrator, product_rest
 from .jump import jump, settle
 from .memory import (
@@ -16,53 +17,46 @@ from .memory import (
     FRESH_LAYOUT,
     FRESH_LOADS,
     FRESH_MOTION,
-    GAP,
-    GAP2,
     MASTER_TOLERANCE,
-    PAST_IN,
-    PAST_OUT,
     POINTS,
     PREVIOUS_ERROR,
     REJECTED,
     STEP,
     STEPS,
     TURNS,
-    VARS,
     WORK,
 )
 from .motion import Motion
 from .outputs import write_layout, write_loads, write_motion
+from .places import (
+    BEND1,
+    BEND2,
+    COMMAND,
+    CROSS1,
+    CROSS2,
+    DAMPING,
+    DAMPING_IN,
+    DAMPING_OUT,
+    DRIVE,
+    FIDELITY,
+    HOLD_DEGREE,
+    INERTIA_A,
+    INERTIA_B,
+    INERTIA_IN,
+    INERTIA_OUT,
+    MEMORY,
+    PLANE_TWIST,
+    START_ANGLE,
+    START_SPEED,
+    START_TWIST,
+    START_TWIST_RATE,
+    STIFFNESS,
+    TOLERANCE,
+    TORQUE_IN,
+    TORQUE_OUT,
+    YOKE_PHASE,
+)
 from .tangent import Tangent
-from .variables import INDEX, VARIABLES
-
-MEMORY = VARS + len(VARIABLES)
-
-FIDELITY = VARS + INDEX["model.fidelity"]
-DRIVE = VARS + INDEX["model.drive"]
-TOLERANCE = VARS + INDEX["model.tolerance"]
-INERTIA_IN = VARS + INDEX["input.inertia"]
-INERTIA_OUT = VARS + INDEX["output.inertia"]
-DAMPING_IN = VARS + INDEX["input.damping"]
-DAMPING_OUT = VARS + INDEX["output.damping"]
-INERTIA_A = VARS + INDEX["shaft.inertia_a"]
-INERTIA_B = VARS + INDEX["shaft.inertia_b"]
-STIFFNESS = VARS + INDEX["shaft.stiffness"]
-DAMPING = VARS + INDEX["shaft.damping"]
-YOKE_PHASE = VARS + INDEX["shaft.yoke_phase"]
-PLANE_TWIST = VARS + INDEX["shaft.plane_twist"]
-CROSS1 = VARS + INDEX["joint1.cross.inertia_a"]  # then b, m, damping a, b, friction
-CROSS2 = VARS + INDEX["joint2.cross.inertia_a"]
-START_ANGLE = VARS + INDEX["initial.angle"]
-START_SPEED = VARS + INDEX["initial.speed"]
-START_TWIST = VARS + INDEX["initial.twist"]
-START_TWIST_RATE = VARS + INDEX["initial.twist_rate"]
-HOLD_DEGREE = VARS + INDEX["hold.degree"]
-HOLD_RESTART = VARS + INDEX["hold.restart"]
-TORQUE_IN = VARS + INDEX["input.torque"]  # then der1, by_speed
-TORQUE_OUT = VARS + INDEX["output.torque"]
-COMMAND = VARS + INDEX["input.speed_command"]  # then der1, der2
-BEND1 = VARS + INDEX["joint1.angle"]  # then der1, der2
-BEND2 = VARS + INDEX["joint2.angle"]
 
 
 class Stepper:
@@ -83,8 +77,7 @@ class Stepper:
         self.integrator = Integrator(self.motion)
         self.tangent = Tangent(self.motion)
         self.column = [0.0] * 16
-        self.new_in = self.new_out = self.rate_in = self.rate_out = 0.0
-        self.speed_in = self.speed_out = self.acceleration_in = self.acceleration_out = 0.0
+        self.history = History(self.motion)
 
     def configure(self):
         """Take the parameters from memory into the equations and the integrator."""
@@ -187,7 +180,8 @@ class Stepper:
         else:
             m.swing(z[BEND1], z[BEND1 + 1], z[BEND1 + 2], z[BEND2], z[BEND2 + 1], z[BEND2 + 2])
         m.steer(y[0], y[2], z[COMMAND + 1], z[COMMAND + 2])
-        points = self.hold(h)
+        points = self.history.hold(z, y, h)
+        it.evaluations += self.history.evaluations
         result = DONE
         if not (m.rigid and m.driven):
             result = it.run(h)
@@ -195,52 +189,6 @@ class Stepper:
             return result
         self.remember(h, points)
         return DONE
-
-    def hold(self, h):
-        """Continue both torques over the step `h` (s); returns the number of earlier points used."""
-        z = self.z
-        m = self.motion
-        y = self.integrator.y
-        degree = z[HOLD_DEGREE]
-        rate_in = z[TORQUE_IN + 1] if degree > 0.0 else 0.0
-        rate_out = z[TORQUE_OUT + 1] if degree > 0.0 else 0.0
-        slope_in = z[TORQUE_IN + 2]
-        slope_out = z[TORQUE_OUT + 2]
-        w3 = 0.0
-        if slope_out != 0.0 or degree > 1.0:
-            m.hold_in.line(z[TORQUE_IN], 0.0, 0.0, 0.0)
-            m.hold_out.line(z[TORQUE_OUT], 0.0, 0.0, 0.0)
-            m.evaluate(0.0, y[0], y[1], y[2], y[3])
-            self.integrator.evaluations += 1.0
-            w3 = m.w3
-        m.hold_in.line(z[TORQUE_IN], rate_in, slope_in, y[2])
-        m.hold_out.line(z[TORQUE_OUT], rate_out, slope_out, w3)
-        if degree <= 1.0:
-            return 0.0
-        points = 0.0 if z[HOLD_RESTART] != 0.0 else z[POINTS]
-        raised = False
-        for side in range(2):
-            at = PAST_OUT if side == 1 else PAST_IN
-            torque = m.hold_out if side == 1 else m.hold_in
-            slope = torque.slope
-            u1 = z[at] - slope * z[at + 2]
-            m1 = z[at + 1] - slope * z[at + 3]
-            raised = False
-            if degree == 5.0 and points >= 2.0:
-                u2 = z[at + 4] - slope * z[at + 6]
-                m2 = z[at + 5] - slope * z[at + 7]
-                raised = torque.hermite5(h, z[GAP], u1, m1, z[GAP2], u2, m2)
-            if not raised and points >= 1.0:
-                torque.hermite3(h, z[GAP], u1, m1)
-        self.new_in = z[TORQUE_IN]
-        self.new_out = z[TORQUE_OUT]
-        self.rate_in = rate_in + slope_in * m.dw1
-        self.rate_out = rate_out + slope_out * m.dw3
-        self.speed_in = y[2]
-        self.speed_out = w3
-        self.acceleration_in = m.dw1
-        self.acceleration_out = m.dw3
-        return points
 
     def remember(self, h, points):
         """Write the end of a step of length `h` (s), made with `points` earlier points, into memory."""
@@ -275,31 +223,12 @@ class Stepper:
             m.evaluate(h, y[0], y[1], y[2], y[3])
             z[END_OUT] += m.hold_out.slope * m.w3
         if z[HOLD_DEGREE] > 1.0:
-            self.push(h, points)
+            self.history.push(z, h, points)
         self.forget_outputs()
         if m.rigid and m.driven:
             # Nothing was integrated: the motion is exact and the drive supplies whatever it takes.
             settle(m, z, y)
             z[WORK] = m.kinetic() - z[ENERGY]
-
-    def push(self, h, points):
-        """Put the start of the step of length `h` (s) behind `points` earlier points into the history."""
-        z = self.z
-        if points > 0.0:
-            z[GAP2] = z[GAP]
-            for i in range(4):
-                z[PAST_IN + 4 + i] = z[PAST_IN + i]
-                z[PAST_OUT + 4 + i] = z[PAST_OUT + i]
-        z[GAP] = h
-        z[PAST_IN] = self.new_in
-        z[PAST_IN + 1] = self.rate_in
-        z[PAST_IN + 2] = self.speed_in
-        z[PAST_IN + 3] = self.acceleration_in
-        z[PAST_OUT] = self.new_out
-        z[PAST_OUT + 1] = self.rate_out
-        z[PAST_OUT + 2] = self.speed_out
-        z[PAST_OUT + 3] = self.acceleration_out
-        z[POINTS] = points + 1.0 if points < 1.5 else 2.0
 
     def look(self):
         """Evaluate the equations at the end of the last step."""
