@@ -12,7 +12,7 @@ from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from typing import Any
 
-from . import BuildError, archive
+from . import BuildError, archive, terminals
 from .sources import Sources, check_compiled, collect, find_package
 from .staging import lay_out
 
@@ -54,6 +54,8 @@ def _make(sources: Sources, work: Path) -> Path:
     members = {name: content for name, content in members.items() if not name.startswith("resources/pythonfmu/")}
     members["modelDescription.xml"] = (work / "modelDescription.xml").read_bytes()
     members["model.png"] = (Path(__file__).parent / "model.png").read_bytes()
+    ports = sorted((work / terminals.FOLDER).iterdir())
+    members |= {f"{terminals.FOLDER}/{path.name}": path.read_bytes() for path in ports}
     made = work / "CardanDriveline.fmu"
     archive.write(made, members)
     _verify(made, sources, work)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib.metadata
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 from typing import Any
 
 from . import BuildError
+from .documentation_page import page
+from .notices import FMI_HEADERS
 
 EXTERNAL = """CardanDriveline is a Python FMU (exporter: PythonFMU). It carries its Python code and needs from the
 importing process, on Linux (x86-64, glibc 2.32 or later) or Windows (x86-64):
@@ -22,38 +23,9 @@ importing process, on Linux (x86-64, glibc 2.32 or later) or Windows (x86-64):
   read others back from the resource URI.
 """
 
-PAGE = """<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>CardanDriveline {version}</title>
-<style>
-body {{ font: 15px/1.45 sans-serif; max-width: 68em; margin: 2em auto; padding: 0 1em; color: #222 }}
-table {{ border-collapse: collapse; width: 100%; font-size: 13px }}
-td, th {{ border-bottom: 1px solid #ddd; padding: 3px 8px; text-align: left; vertical-align: top }}
-td:nth-child(n+3):nth-child(-n+5) {{ white-space: nowrap }}
-code {{ font-size: 13px }}
-</style></head><body>
-<h1>CardanDriveline {version}</h1>
-<p>{text}. FMI 2.0 co-simulation; all values in SI units.</p>
-<h2>Use</h2>
-<p>Set parameters before initialization; tunable ones and all inputs at any communication point. Outputs hold their
-values at the end of the step. Torque inputs given alone are held over a step. With <code>.der1</code> (time derivative)
-and <code>.by_speed</code> (derivative by the shaft's speed) the torque is followed inside the step; with
-<code>hold.degree</code> 3 or 5 it is interpolated through the last communication points, whose history
-<code>hold.restart</code> drops where a torque jumped.</p>
-<p>A step with a value out of range is refused (<code>fmi2Discard</code>); the message names the variable, its value and
-the allowed range, the state stays as it was, and after a correction the run goes on. The state can be saved, restored
-and serialized, and a repeated step is equal to the last bit.</p>
-{tables}
-<h2>Signs</h2>
-<p>Angles, speeds and torques of a shaft are right-handed about its axis, which points from the input to the output.
-A joint's angle is zero where its input trunnion lies in the plane of the bent shafts. <code>input.torque</code> drives,
-<code>output.torque</code> resists positive speed.</p>
-</body></html>
-"""
 
-HEADINGS = {"parameter": "Parameters", "input": "Inputs", "output": "Outputs"}
-
-
-def write(folder: Path, variables: Sequence[Any], *, version: str, text: str) -> None:
+def write(folder: Path, variables: Sequence[Any], *, version: str, text: str, digest: str,
+          binaries: Sequence[str]) -> None:
     """Write the documentation.
 
     Parameters
@@ -64,16 +36,19 @@ def write(folder: Path, variables: Sequence[Any], *, version: str, text: str) ->
         ``cardan_kernel.variables.VARIABLES``.
     version, text : str
         Version and one-line description of the model.
+    digest : str
+        SHA-256 of the sources inside, hexadecimal.
+    binaries : sequence of str
+        File names of the compiled kernels inside.
     """
     licences = folder / "licenses"
     licences.mkdir(parents=True)
-    tables = "\n".join(_table(heading, [each for each in variables if each.causality == causality])
-                       for causality, heading in HEADINGS.items())
     pages = {
-        folder / "index.html": PAGE.format(version=escape(version), text=escape(text), tables=tables),
+        folder / "index.html": page(variables, version=version, text=text, digest=digest, binaries=binaries),
         folder / "externalDependencies.txt": EXTERNAL,
         licences / "license.txt": own_licence(),
         licences / "pythonfmu.txt": licence_of("pythonfmu"),
+        licences / "fmi.txt": FMI_HEADERS,
     }
     for path, content in pages.items():
         path.write_text(content, encoding="utf-8", newline="\n")
@@ -95,19 +70,3 @@ def licence_of(distribution: str) -> str:
         if each.name == "LICENSE" and ".dist-info" in str(each):
             return each.read_text(encoding="utf-8")
     raise BuildError(f"the distribution {distribution} has no LICENSE file; it belongs in the FMU")
-
-
-def _table(heading: str, variables: Sequence[Any]) -> str:
-    rows = "\n".join(_row(variable) for variable in variables)
-    return (f"<h2>{heading}</h2>\n<table><tr><th>Name</th><th>Meaning</th><th>Unit</th><th>Start</th>"
-            f"<th>Allowed</th></tr>\n{rows}\n</table>")
-
-
-def _row(variable: Any) -> str:
-    start = "" if variable.start is None else f"{variable.start:.10g}" if variable.type == "Real" else variable.start
-    bounds = (("&ge;", variable.minimum), ("&le;", variable.maximum))
-    allowed = " ".join(f"{sign} {bound:.7g}" for sign, bound in bounds if bound is not None)
-    tunable = " (tunable)" if variable.variability == "tunable" else ""
-    cells = (f"<code>{escape(variable.name)}</code>", escape(variable.description) + tunable,
-             escape(variable.unit if variable.unit != "1" else ""), escape(str(start).lower()), allowed)
-    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"

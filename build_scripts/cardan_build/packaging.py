@@ -11,12 +11,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from . import dependencies, description, documentation
+from . import dependencies, description, documentation, terminals
 from .sources import PYTHONFMU_MODULES
 
 
 def package(job: dict[str, Any]) -> None:
-    """Write ``raw.fmu`` (pythonfmu's archive) and ``modelDescription.xml`` into the working directory.
+    """Write ``raw.fmu`` (pythonfmu's archive), ``modelDescription.xml`` and ``terminalsAndIcons`` into ``work``.
 
     Parameters
     ----------
@@ -32,7 +32,12 @@ def package(job: dict[str, Any]) -> None:
     xml = description.describe(table.VARIABLES, table.UNITS, found, version=kernel.__version__, digest=job["digest"],
                                binaries=job["binaries"])
     (work / "modelDescription.xml").write_bytes(xml)
-    documentation.write(work / "documentation", table.VARIABLES, version=kernel.__version__, text=description.TEXT)
+    documentation.write(work / "documentation", table.VARIABLES, version=kernel.__version__, text=description.TEXT,
+                        digest=job["digest"], binaries=job["binaries"])
+    for name, content in terminals.files(variable.name for variable in table.VARIABLES).items():
+        path = work / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content)
     _alias(job["pythonfmu"])
     from pythonfmu import FmuBuilder
 

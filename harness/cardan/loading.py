@@ -13,7 +13,9 @@ from cardan.description import Description, read_description
 from cardan.errors import FATAL, FmiError, FmuError, StepRefused
 from cardan.logger import Callbacks
 
-_LOADING = threading.Lock()  # FMPy changes the working directory of the process while it loads a library
+# FMPy changes the working directory of the process while it loads a library. The garbage collector may close an
+# instance while the same thread loads another one, hence reentrant.
+_LOADING = threading.RLock()
 _ABANDONED: list[Any] = []  # instances after a fatal error: freeing them crashes, so their callbacks stay alive
 
 

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cardan.coupling import FALLBACK, Master, scheme, scheme_of
+from cardan.coupling import FALLBACK, FOREIGN, Master, Scheme, scheme, scheme_of
 from cardan.errors import CardanError
 from cardan.instance import Instance
+from cardan.models.foreign import foreign_in
 from cardan.models.surroundings import Surroundings
 from cardan.provenance import provenance
 from cardan.recorder import Recorder
@@ -73,11 +74,7 @@ def simulate(scenario: Scenario, *, fmu: str | os.PathLike[str] | None = None, p
     loading = time.perf_counter()
     with Instance(_fmu_path(fmu)) as instance:
         description = instance.description
-        note = ""
-        if method.rolls_back and not description.can_get_set_state:
-            note = (f"coupling = {method.name!r} needs an FMU that saves and restores its state, which "
-                    f"{description.path.name} does not: coupling = {FALLBACK!r} is used instead")
-            method = scheme(FALLBACK)
+        method, note = _possible(method, scenario, description.can_get_set_state, description.path.name)
         surroundings = Surroundings(scenario, tolerance=method.model_tolerance(scenario.tolerance))
         names = [name for name in scenario.outputs if name not in surroundings.signals]
         read = [name for name in names if description[name].type == "Real"]
@@ -114,6 +111,18 @@ def simulate(scenario: Scenario, *, fmu: str | os.PathLike[str] | None = None, p
     if interrupted:
         raise Interrupted(result)
     return result
+
+
+def _possible(method: Scheme, scenario: Scenario, can_roll_back: bool, fmu: str) -> tuple[Scheme, str]:
+    """Return the scheme, or another one and why, where an FMU in the scene cannot do what it needs."""
+    asked = f"coupling = {method.name!r}"
+    if foreign_in(scenario.engine, scenario.load) and (method.rolls_back or method.order > 2):
+        return scheme(FOREIGN), (f"{asked} gains nothing with a foreign FMU, whose inputs are held: "
+                                 f"coupling = {FOREIGN!r} is used instead")
+    if method.rolls_back and not can_roll_back:
+        return scheme(FALLBACK), (f"{asked} needs an FMU that saves and restores its state, which {fmu} does not: "
+                                  f"coupling = {FALLBACK!r} is used instead")
+    return method, ""
 
 
 def _judged(master: Master) -> str:

@@ -17,7 +17,8 @@ def scene(driveline: dict[str, Any], engine: dict[str, Any] | None = None, load:
           **table: Any) -> Scenario:
     """Make a scene; without engine and load nothing acts on the shafts."""
     return Scenario.from_dict({
-        "scene": {"title": "analysed", "stop_time": 1.0, "communication_step": 1e-3, "outputs": ["input.speed"], **table},
+        "scene": {"title": "analysed", "stop_time": 1.0, "communication_step": 1e-3, "outputs": ["input.speed"],
+                  **table},
         "driveline": driveline,
         "engine": engine or {"type": "constant", "torque": 0.0},
         "load": load or {"type": "constant", "torque": 0.0},
@@ -33,5 +34,5 @@ def homokinetic(angle: float, **driveline: Any) -> Scenario:
 def single(angle: float, damping: float = 4.0, load: dict[str, Any] | None = None, **driveline: Any) -> Scenario:
     """Single joint (deg), natural frequency 50 Hz with the default inertias, a load that holds the speed."""
     stiffness = NATURAL**2 / (1.0 / 0.2044 + 1.0 / 1.5044)
-    return scene({"joint1.angle": f"{angle!r} deg", "shaft.stiffness": stiffness, "shaft.damping": damping, **driveline},
-                 load=load or {"type": "linear", "coefficient": 0.5})
+    return scene({"joint1.angle": f"{angle!r} deg", "shaft.stiffness": stiffness, "shaft.damping": damping,
+                  **driveline}, load=load or {"type": "linear", "coefficient": 0.5})

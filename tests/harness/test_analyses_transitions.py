@@ -159,7 +159,7 @@ def test_rows_in_other_processes_are_the_same() -> None:
     ({"damping": "air"}, "--damping air: choose one of"),
 ])
 def test_bad_input(options: dict[str, Any], words: str) -> None:
-    with pytest.raises(CardanError, match=".*") as error:
+    with pytest.raises(CardanError, match="--") as error:
         stability(homokinetic(20.0), **{"speed": [W], **options})
     assert words in str(error.value)
 

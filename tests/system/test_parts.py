@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import subprocess
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from cardan import Instance
+from cardan.description import read_description
 from cardan.errors import FmiError, StepRefused
 from cardan_build.system.assembly import unpack_fmus
 from hosts.pythons import interpreter
@@ -112,6 +114,28 @@ def test_a_parameter_acts(fmus: dict[str, Path]) -> None:
     assert found[0] == pytest.approx(2.0 * found[1], rel=0.05)  # speed gained from the same torque, clutch still open
 
 
+def test_a_parameter_set_back_in_initialization_mode_gives_the_first_values_again(engine: Instance) -> None:
+    engine.setup(0.0)
+    before = engine.get("governor.torque")
+    engine.set("governor.speed", 95.0)
+    assert engine.get("governor.torque") != before
+    engine.set("governor.speed", 50.0)
+    assert engine.get("governor.torque") == before
+
+
+@pytest.mark.parametrize(("calls", "text"), [
+    ("initialize", "exit_initialization_mode is refused while the instance is instantiated"),
+    ("setup initialize setup", "setup_experiment is refused while the instance is stepping"),
+    ("terminate", "terminate is refused while the instance is instantiated"),
+    ("setup initialize terminate terminate", "terminate is refused while the instance is terminated"),
+])
+def test_calls_out_of_order_are_told(calls: str, text: str, engine: Instance) -> None:
+    with contextlib.suppress(FmiError):
+        for call in calls.split():
+            getattr(engine, call)()
+    assert any(text in message.text for message in engine.messages)
+
+
 def test_wrong_calls_are_refused_and_told(engine: Instance) -> None:
     with pytest.raises(StepRefused, match="initialize it first"):
         engine.step(0.0, 1e-3)
@@ -149,6 +173,26 @@ def test_parts_run_after_the_folder_of_another_is_gone(fmus: dict[str, Path]) ->
         load.set("shaft.speed", 60.0)
         assert load.get("shaft.torque") > 0.0
         drive(engine, 0, 3)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="this host is written for Linux")
+@pytest.mark.parametrize("name", ["driveline", "engine"])
+def test_instances_can_be_made_again_and_again(name: str, fmus: dict[str, Path], tmp_path: Path) -> None:
+    # The exporter releases a borrowed reference with each: with a leaner class the process would die here.
+    about = read_description(fmus[name])
+    with zipfile.ZipFile(fmus[name]) as archive:
+        archive.extractall(tmp_path)
+    values = [each for each in about.variables.values() if each.type == "Real"]
+    job = {"library": str(tmp_path / f"binaries/linux64/{about.identifier}.so"), "guid": about.guid, "starts": [],
+           "resources": (tmp_path / "resources").as_uri(), "mode": "cycles", "count": 300,
+           "inputs": [each.reference for each in values if each.causality == "input"][:2],
+           "outputs": [each.reference for each in values if each.causality == "output"][:3]}
+    host = Path(__file__).resolve().parents[1] / "hosts" / "ctypes_host.py"
+    done = subprocess.run([sys.executable, "-I", "-S", "-B", str(host)], input=json.dumps(job), capture_output=True,
+                          text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    memory = json.loads(done.stdout)["memory"]
+    assert (memory[-1] - memory[4]) / 150 < 22.0  # kB; docs/FMI.md, trap 10
 
 
 @pytest.fixture(scope="module")

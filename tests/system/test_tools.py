@@ -57,6 +57,19 @@ def test_elsewhere_the_difference_shrinks_at_first_order(tool: str, name: str, p
     assert np.abs(orders - 1.0).max() < 0.2, orders  # what is left of the second order
 
 
+def test_what_fmpy_starts_with_fades_at_first_order(packaged: Packaged, run_in: Run) -> None:
+    # zero instead of the prescribed speed in the first step: a wrong first point, and a jolt as long as the step
+    found = []
+    for step, count in ((5e-4, 800), (2.5e-4, 1600)):
+        ssp, _, result = packaged("prescribed", step)
+        rows = run_in("fmpy", ssp, step, count, NAMES)
+        assert rows[0, OUTPUTS.index("input.speed")] == 0.0
+        expected = np.column_stack([result[name] for name in OUTPUTS])[1:]
+        found.append(np.abs(rows - expected)[1:].max(axis=0)[[0, 2, 3]])  # the input speed itself is right again
+    orders = np.log2(found[0] / found[1])
+    assert np.abs(orders - 1.0).max() < 0.2, orders
+
+
 @pytest.mark.parametrize("name", [name for name in ALL if name != "driven"])
 def test_a_tool_that_resolves_feedthrough_gives_the_same_result(name: str, packaged: Packaged, tmp_path: Path) -> None:
     made = packaged(name)

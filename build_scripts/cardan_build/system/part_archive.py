@@ -21,9 +21,26 @@ LIBRARIES = {"linux64": ("libpythonfmu-export.so", ".so"), "win64": ("pythonfmu-
 _HOME = Path(__file__).parent
 # What needs the harness, and so more than the standard library.
 _STAY_OUTSIDE = ("catalog.py", "foreign.py", "foreign_run.py")
+# The exporter runs the text of this module again for every instance and keeps what comes of it: it is short. It also
+# gives back a reference to the module's names that it only borrowed, once per instance; each method of the class it
+# keeps holds one. A class without methods would so end in a crash: there are two.
+_SLAVE = '''"""The class that the exporter looks for."""
+
+import cardan_part.slave
+
+
+class ScenePart(cardan_part.slave.ScenePart):
+    """Engine, load, driver or moving joints of a scene."""
+
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+
+    def do_step(self, current_time, step_size):
+        return False  # never called: the part\'s method stands in front of it in every instance
+'''
 _IMPORTS = (
     (re.compile(r"^from cardan\.models\b", re.MULTILINE), "from cardan_part_{tag}.models"),
-    (re.compile(r"^from cardan_build\.system\.part\b", re.MULTILINE), "from cardan_part_{tag}"),
+    (re.compile(r"\bcardan_part\.slave\b"), "cardan_part_{tag}.slave"),
     (re.compile(r"^from pythonfmu\b", re.MULTILINE), "from pythonfmu_{tag}"),
 )
 
@@ -44,8 +61,8 @@ def code(data: Mapping[str, bytes]) -> dict[str, bytes]:
     files = {f"cardan_part/models/{path.name}": path for path in models.glob("*.py") if path.name not in _STAY_OUTSIDE}
     files |= {f"cardan_part/{path.name}": path for path in (_HOME / "part").glob("*.py")}
     files |= {f"pythonfmu/{name}.py": pythonfmu / f"{name}.py" for name in PYTHONFMU_MODULES}
-    files["cardan_part_slave.py"] = _HOME / "part_slave.py"
     contents = {name: path.read_bytes() for name, path in sorted(files.items())}
+    contents["cardan_part_slave.py"] = _SLAVE.encode()
     contents["pythonfmu/__init__.py"] = b"# pythonfmu without its builder, renamed for this FMU\n"
     tag = _hash({**contents, **data})[:12]
     return {_renamed(name, tag): _rewritten(content, tag) for name, content in contents.items()}

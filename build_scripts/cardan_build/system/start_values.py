@@ -29,6 +29,9 @@ class CardanDriveline(driveline.CardanDriveline):
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
+        self.begin()
+
+    def begin(self):
         for kind, (references, values) in START.items():
             getattr(self, "set_" + kind)(references, values)
 '''

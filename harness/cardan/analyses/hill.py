@@ -21,7 +21,8 @@ Complex = NDArray[np.complex128]
 
 MOST_HARMONICS = 60
 CHUNK = 64  # frequencies solved together
-POLE_TOLERANCE = 1e-10  # of the fundamental
+POLE_TOLERANCE = 1e-11  # of the fundamental
+MORE_FOR_POLES = 12  # harmonics at most, after that rounding decides
 
 
 @dataclass(frozen=True)
@@ -147,7 +148,7 @@ def lift_to_tolerance(system: Periodic, omega: Array, tolerance: float,
     error : float
         That change.
     """
-    harmonics, error = 2, np.inf
+    harmonics, error, enough = 2, np.inf, MOST_HARMONICS
     made = lift(system, harmonics)
     now = made.response(omega)[:, harmonics]
     while True:
@@ -155,7 +156,11 @@ def lift_to_tolerance(system: Periodic, omega: Array, tolerance: float,
         finer = more.response(omega)[:, harmonics + 3]
         size = np.maximum(np.abs(finer), 1e-9 * np.abs(finer).max(axis=0))
         error = float((np.abs(finer - now) / np.where(size > 0.0, size, 1.0)).max(initial=0.0))
-        if harmonics + 3 > MOST_HARMONICS or (error <= tolerance and _meets(made, exponents)):
+        if error <= tolerance:
+            if _meets(made, exponents) or harmonics >= enough:
+                return made, error
+            enough = min(enough, harmonics + MORE_FOR_POLES)
+        if harmonics + 3 > MOST_HARMONICS:
             return made, error
         made, now, harmonics = more, finer, harmonics + 3
 

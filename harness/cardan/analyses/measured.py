@@ -43,8 +43,6 @@ RESIDUAL = 1e-4  # of a fit that may be trusted
 class Unmeasurable(CardanError):
     """The FMU cannot be measured here; the text says why."""
 
-    exit_code = 2
-
 
 def measured(scenario: Any, made: Linearization, measure: bool | str | Iterable[float],
              fmu: str | os.PathLike[str] | None, progress: Callable[[float], None] | None) -> Linearization:

@@ -28,8 +28,6 @@ HOW_TO = "give a load that rises with speed, or damping (output.damping, shaft.d
 class NoSteadyState(CardanError):
     """There is no periodic motion, or none was found; the text says why."""
 
-    exit_code = 2
-
 
 @dataclass(frozen=True)
 class Motion:

@@ -165,16 +165,19 @@ def stability(scenario: Any, speed: Any = None, angle: Any = None, *, joints: st
     jobs = [(tables, tuple(float(s) for s in speeds), tuple(float(a * r) for r in ratios), float(a), damping)
             for a in angles]
     rows = _run(jobs, scenario, processes, progress)
-    warnings = [text for row in rows for text in row.warnings]
-    if scenario.driver is not None:
-        warnings.insert(0, f"the scene's driver is left out: the throttle stays at {plant.surrounding.bus.throttle:g}")
     growth = np.array([row.growth for row in rows])
+    lost = [row.lost for row in rows if row.lost]
     if np.isnan(growth).all():
-        raise NoSteadyState(warnings[-1] if warnings else "no periodic motion was found at any point of the chart")
+        raise NoSteadyState(f"no point of the chart has a steady state: {lost[-1]}")
+    warnings = []
+    if scenario.driver is not None:
+        warnings.append(f"the scene's driver is left out: the throttle stays at {plant.surrounding.bus.throttle:g}")
+    if lost:
+        warnings.append(f"{int(np.isnan(growth).sum())} of {growth.size} points have no motion, such as: {lost[-1]}")
     return Stability(speeds, angles, words, growth, [t for row in rows for t in row.transitions],
                      [r for row in rows for r in row.resonances],
                      [row.critical for row in rows if row.critical is not None], natural, scenario.title,
-                     list(dict.fromkeys(warnings)))
+                     warnings)
 
 
 def _ratios(plant: Plant, joints: str) -> tuple[tuple[float, float], str]:

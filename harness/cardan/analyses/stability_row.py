@@ -24,7 +24,7 @@ class Row:
     transitions: list[Transition]
     resonances: list[Resonance]
     critical: CriticalDamping | None
-    warnings: list[str]
+    lost: str
 
 
 def row_elsewhere(tables: Tables, speeds: tuple[float, ...], bends: tuple[float, float], angle: float,
@@ -48,13 +48,10 @@ def row_of(scenario: Any, speeds: tuple[float, ...], bends: tuple[float, float],
             sections.append(None)
             lost = str(error)
     growth = [math.nan if s is None else s.growth_per_turn for s in sections]
-    missing = sum(s is None for s in sections)
-    warnings = [f"{missing} of {len(speeds)} speeds at {math.degrees(angle):.4g} deg have no motion, such as: {lost}"
-                ] if missing else []
     transitions, resonances = find_regions(shooter.section, list(speeds), sections, angle, plant.period_angle)
     critical = None
     if damping != "none":
         principal = [t for t in transitions if t.region == 1]
         if principal:
             critical = critical_damping(scenario, changes, principal[0], damping)
-    return Row(growth, transitions, resonances, critical, warnings)
+    return Row(growth, transitions, resonances, critical, lost)

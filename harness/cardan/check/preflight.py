@@ -69,7 +69,7 @@ def admit(path: str | os.PathLike[str]) -> Admitted:
 
 def _description(path: object, archive: zipfile.ZipFile) -> Any:
     """Return the root of the model description, read without following references out of it."""
-    from lxml import etree  # type: ignore[import-untyped]
+    from lxml import etree
 
     size = archive.getinfo("modelDescription.xml").file_size
     if size > LARGEST_DESCRIPTION:

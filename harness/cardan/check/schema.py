@@ -23,7 +23,7 @@ class Schema(Check):
 
     def run(self, subject: Subject, part: str, found: Findings) -> None:
         """Validate with lxml."""
-        from lxml import etree  # type: ignore[import-untyped]
+        from lxml import etree
 
         folder = Path(fmpy.__file__).parent / "schema" / "fmi2"
         schema = etree.XMLSchema(file=str(folder / "fmi2ModelDescription.xsd"))

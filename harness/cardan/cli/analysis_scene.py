@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from cardan.cli.failures import collected, refuse
-from cardan.cli.simulate import _bar, _overrides
+from cardan.cli.simulate import progress_bar, read_overrides
 
 if TYPE_CHECKING:
     from cardan.scenario import Scenario
@@ -39,7 +39,7 @@ def checked_scene(scene: str, changes: list[str] | None, files: Iterable[tuple[P
     problems: list[str] = []
     scenario = None
     with collected(problems):
-        overrides = _overrides(changes or [], None, problems)
+        overrides = read_overrides(changes or [], None, problems)
         scenario = Scenario.load(scene)
         if overrides:
             scenario = scenario.with_overrides(overrides)
@@ -56,7 +56,7 @@ def checked_scene(scene: str, changes: list[str] | None, files: Iterable[tuple[P
 
 def bar(title: str) -> AbstractContextManager[Progress | None]:
     """Give a progress bar on stderr; nothing where stderr is no terminal."""
-    return _bar(title)
+    return progress_bar(title)
 
 
 def warn(texts: Iterable[str]) -> None:

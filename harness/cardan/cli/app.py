@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from cardan.cli.bench import bench
 from cardan.cli.build import build
 from cardan.cli.check import check
 from cardan.cli.importers import importers
@@ -31,6 +32,7 @@ for command, summary in (
     (scenes, "List the shipped scenes."),
     (package, "Write a scene as an SSP system package."),
     (importers, "Run the FMU in other importers; compare."),
+    (bench, "Measure speed against error."),
 ):
     app.command(short_help=summary)(command)
 

@@ -28,19 +28,19 @@ def package(
     with expected_errors():
         from cardan_build.system import package as make
 
-        from cardan.cli.simulate import _overrides
+        from cardan.cli.simulate import read_overrides
         from cardan.scenario import Scenario
 
         problems: list[str] = []
         scenario = None
         with collected(problems):
-            overrides = _overrides(changes or [], None, problems)
+            overrides = read_overrides(changes or [], None, problems)
             scenario = Scenario.load(scene).with_overrides(overrides)
         refuse(problems)
         assert scenario is not None
         made = make(scenario, output or Path(f"{scenario.name}.ssp"), fmu)
     if scenario.coupling not in ("held", "gauss-seidel"):
-        typer.echo(f"note: the scene's step is meant for coupling = {scenario.coupling!r}; tools hold values over it and may"
-                   " need a shorter one (cardan simulate --set scene.coupling=held shows it)", err=True)
+        typer.echo(f"note: the scene's step is meant for coupling = {scenario.coupling!r}; tools hold values over it,"
+                   " which may need a shorter one (cardan simulate --set scene.coupling=held shows it)", err=True)
     typer.echo(f"{made}: {made.stat().st_size / 1024:.0f} kB, {scenario.stop_time:g} s in steps of "
                f"{scenario.communication_step:g} s, parameter set scene")

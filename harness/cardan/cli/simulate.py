@@ -62,7 +62,7 @@ def _checked(scene: str, output: Path | None, plot: Path | None, changes: list[s
     problems: list[str] = []
     scenario = None
     with collected(problems):
-        overrides = _overrides(changes, stop_time, problems)
+        overrides = read_overrides(changes, stop_time, problems)
         scenario = Scenario.load(scene)
         if overrides:
             scenario = scenario.with_overrides(overrides)
@@ -78,7 +78,7 @@ def _checked(scene: str, output: Path | None, plot: Path | None, changes: list[s
     return scenario
 
 
-def _overrides(changes: list[str], stop_time: str | None, problems: list[str]) -> dict[str, Any]:
+def read_overrides(changes: list[str], stop_time: str | None, problems: list[str]) -> dict[str, Any]:
     overrides: dict[str, Any] = {}
     for change in changes:
         key, equals, text = change.partition("=")
@@ -105,7 +105,7 @@ def _run(scenario: Scenario, fmu: Path | None) -> tuple[Result, bool]:
     from cardan.simulation import Interrupted
     from cardan.simulation import simulate as run
 
-    with _bar(scenario.title) as progress:
+    with progress_bar(scenario.title) as progress:
         try:
             return run(scenario, fmu=fmu, progress=progress, announce=lambda line: typer.echo(line, err=True)), False
         except Interrupted as stop:
@@ -113,7 +113,7 @@ def _run(scenario: Scenario, fmu: Path | None) -> tuple[Result, bool]:
 
 
 @contextmanager
-def _bar(title: str) -> Iterator[Progress | None]:
+def progress_bar(title: str) -> Iterator[Progress | None]:
     """Give a progress bar on stderr; nothing where stderr is no terminal."""
     import sys
 

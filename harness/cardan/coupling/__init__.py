@@ -24,9 +24,10 @@ if TYPE_CHECKING:
 
 KINDS: tuple[type[Scheme], ...] = (Held, GaussSeidel, Linear, Slope, Hermite3, Hermite5, Iterated, Adaptive, Auto)
 SCHEMES: dict[str, type[Scheme]] = {kind.name: kind for kind in KINDS}
-FALLBACK = "slope"
+FALLBACK = "slope"  # for an FMU that cannot be rolled back
+FOREIGN = "gauss-seidel"  # for an engine or load that is an FMU of its own
 
-__all__ = ["FALLBACK", "SCHEMES", "Adaptive", "Iterated", "Master", "Scheme", "scheme", "scheme_of"]
+__all__ = ["FALLBACK", "FOREIGN", "SCHEMES", "Adaptive", "Iterated", "Master", "Scheme", "scheme", "scheme_of"]
 
 
 def scheme(name: str) -> Scheme:

@@ -69,6 +69,8 @@ def _kind(table: Any, path: str, kinds: Mapping[str, type[Model]], collector: Co
     choices = ", ".join(kinds)
     if not isinstance(table, Mapping):
         collector.add(path, table, f"must be a table [{path}]")
+    elif "type" not in table and "fmu" in table and "fmu" in kinds:
+        return kinds["fmu"]
     elif "type" not in table:
         collector.add(f"{path}.type", None, "missing", choices)
     elif not isinstance(table["type"], str) or table["type"] not in kinds:

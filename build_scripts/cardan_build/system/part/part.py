@@ -61,14 +61,18 @@ class Part:
 
     def setup_experiment(self, start_time: float, stop_time: Any = None, tolerance: Any = None) -> None:
         """Take the start time, s."""
-        self._time, self._seen = start_time, None
+        if self._expected("setup_experiment", "instantiated"):
+            self._time, self._seen = start_time, None
 
     def enter_initialization_mode(self) -> None:
         """Begin the initialization."""
-        self._phase, self._seen = "initializing", None
+        if self._expected("enter_initialization_mode", "instantiated"):
+            self._phase, self._seen = "initializing", None
 
     def exit_initialization_mode(self) -> None:
         """Start the states for the parameters and inputs that are set by now."""
+        if not self._expected("exit_initialization_mode", "initializing"):
+            return
         try:
             self._moving = self._start()
         except (ArithmeticError, ValueError) as error:
@@ -96,7 +100,8 @@ class Part:
 
     def terminate(self) -> None:
         """End the run; values stay readable."""
-        self._phase = "terminated"
+        if self._expected("terminate", "stepping"):
+            self._phase = "terminated"
 
     # ---- values
 
@@ -174,7 +179,8 @@ class Part:
                     moving = self._role.settle(self._time, self._step, self._moving, inputs)
                     self._seen = self._role.outputs(self._time, self._step, moving, inputs)
                 else:
-                    self._seen = self._role.outputs(self._time, 0.0, self._start(), self._inputs())
+                    moving = self._start()  # makes the model anew first, where parameters were set
+                    self._seen = self._role.outputs(self._time, 0.0, moving, self._inputs())
             except (ArithmeticError, ValueError) as error:
                 self._complain(ERROR, f"the outputs at {self._time!r} s cannot be computed: {error}")
                 return otherwise
@@ -220,6 +226,11 @@ class Part:
     def _start(self) -> Moving:
         self._rebuild()
         return self._role.start(self._time, self._inputs())
+
+    def _expected(self, call: str, phase: str) -> bool:
+        if self._phase == phase:
+            return True
+        return self._complain(ERROR, f"{call} is refused while the instance is {self._phase}: it must be {phase}")
 
     def _refusal(self, t: float, h: float) -> str:
         """Why a step cannot be done; empty if it can."""

@@ -15,7 +15,7 @@ from typing import Any
 from pythonfmu.fmi2slave import Fmi2Slave
 from pythonfmu.logmsg import LogMsg
 
-from cardan_build.system.part.part import Part
+from .part import Part
 
 CATEGORIES = ("logAll", "logStatusWarning", "logStatusDiscard", "logStatusError")
 ERROR = 3
