@@ -13,6 +13,7 @@ from pathlib import Path
 from cardan_kernel.variables import UNITS, VARIABLES, Variable
 
 Row = Iterable[str]
+REPOSITORY = Path(__file__).resolve().parents[2]  # it is run from a checkout
 
 
 def table(heads: Row, rows: Iterable[Row]) -> str:
@@ -59,7 +60,13 @@ def scenes_table() -> str:
     return table(("scene", "what it is", "length", "communication step", "coupling"), rows)
 
 
-BLOCKS: dict[str, Callable[[], str]] = {"variables": variables_table, "scenes": scenes_table}
+def importers_table() -> str:
+    """The table that ``cardan importers --markdown`` printed into docs/importers.md."""
+    return (REPOSITORY / "docs" / "importers.md").read_text(encoding="utf-8").strip()
+
+
+BLOCKS: dict[str, Callable[[], str]] = {"variables": variables_table, "scenes": scenes_table,
+                                        "importers": importers_table}
 
 
 def filled(text: str) -> str:
