@@ -2,7 +2,7 @@
 # make test    install with the test tools, lint, check types, run the tests
 # make clean   remove what these made
 #
-# Needs Python 3.11 or later. A C compiler makes the kernel some twenty times faster; without one it runs interpreted.
+# Needs Python 3.11 or later. A C compiler makes the kernel about fifty times faster; without one it runs interpreted.
 
 PYTHON ?= $(shell for python in python3.13 python3.12 python3.11 python3.14 python3 python; do \
 	$$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \

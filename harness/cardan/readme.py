@@ -12,6 +12,9 @@ from pathlib import Path
 
 from cardan_kernel.variables import UNITS, VARIABLES, Variable
 
+from cardan.bench.sections import Measured
+from cardan.bench.tables import PARTS
+
 Row = Iterable[str]
 REPOSITORY = Path(__file__).resolve().parents[2]  # it is run from a checkout
 
@@ -65,8 +68,18 @@ def importers_table() -> str:
     return (REPOSITORY / "docs" / "importers.md").read_text(encoding="utf-8").strip()
 
 
-BLOCKS: dict[str, Callable[[], str]] = {"variables": variables_table, "scenes": scenes_table,
-                                        "importers": importers_table}
+def measured(make: Callable[[Measured], str]) -> Callable[[], str]:
+    """Return what makes a block of the measurements that ``cardan bench -o docs/bench`` has stored."""
+
+    def block() -> str:
+        return make(Measured.load(REPOSITORY / "docs" / "bench" / "results.json"))
+
+    return block
+
+
+BLOCKS: dict[str, Callable[[], str]] = {
+    "variables": variables_table, "scenes": scenes_table, "importers": importers_table,
+    **{f"bench-{name}": measured(make) for name, make in PARTS.items()}}
 
 
 def filled(text: str) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cardan.bench.records import Record, Tables
+from cardan.bench.records import Record, Tables, told
+from cardan.bench.stepping import STATES
 from cardan.bench.systems import COUPLED
 from cardan.plots import COLOURS, STYLE
 from cardan.storage import written_beside
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ENDINGS = (".png", ".svg")
-GREY = "#b8bec4"
+OTHERS, LIGHT = "#8f979e", "#9cc3dc"
 MARKERS = "osD^vPX"
 OWN = COLOURS[0]
 _LOOK: dict[str, Any] = {"markersize": 4.0, "markeredgewidth": 0.0, "linewidth": 1.2}
@@ -50,7 +51,7 @@ def draw(tables: Tables, folder: Path) -> list[Path]:
     for name, (needed, make) in FIGURES.items():
         if not all(tables.get(table) for table in needed):
             continue
-        with mpl.rc_context({**STYLE, "svg.hashsalt": "cardan"}):
+        with mpl.rc_context({**STYLE, "svg.hashsalt": "cardan"}):  # type: ignore[dict-item]
             figure = make(tables)
             for ending in ENDINGS:
                 path = folder / f"{name}{ending}"
@@ -61,18 +62,17 @@ def draw(tables: Tables, folder: Path) -> list[Path]:
     return files
 
 
-def _figure(width: float, height: float, rows: int, columns: int, title: str, subtitle: str,
-            **options: Any) -> tuple[Figure, Any]:
+def _figure(width: float, height: float, title: str, subtitle: str) -> Figure:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(rows, columns, squeeze=False, **options)
-    figure.suptitle(title, x=0.01, ha="left", fontsize=11.5, fontweight="bold", color="#222222")
-    axes[0, 0].annotate(subtitle, (0.0, 1.0), xytext=(0, 18), xycoords="axes fraction", textcoords="offset points",
-                        fontsize=8, color="#777777", annotation_clip=False)
-    return figure, axes
+    # The empty second line keeps room for the subtitle, which the layout does not see.
+    figure.suptitle(f"{title}\n", x=0.01, ha="left", fontsize=11.5, fontweight="bold", color="#222222")
+    text = figure.text(0.0105, 1.0 - 23.0 / (72.0 * height), subtitle, fontsize=8, color="#777777", va="top")
+    text.set_in_layout(False)
+    return figure
 
 
 def _logarithmic(axis: Axes, across: str, up: str) -> None:
@@ -86,32 +86,36 @@ def _logarithmic(axis: Axes, across: str, up: str) -> None:
     axis.yaxis.set_minor_locator(NullLocator())
 
 
-def _end_legend(axis: Axes) -> None:
-    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, handlelength=1.8, borderaxespad=0.6)
+def _beside(figure: Figure, axis: Axes) -> None:
+    """Put the legend of a panel to the right of all panels."""
+    figure.legend(*axis.get_legend_handles_labels(), loc="outside right center", frameon=False, handlelength=1.8)
 
 
 def integrator(tables: Tables) -> Figure:
     """Error against right-hand sides and against processor time, a line per case, a mark per tolerance."""
     records = tables["integrator"]
-    figure, axes = _figure(9.0, 3.9, 1, 2, "Integrator: work and precision",
-                           "One mark per tolerance, 1e-3 to 1e-12; error of speeds and shaft torque over the run",
-                           sharey=True)
+    figure = _figure(9.0, 3.9, "Integrator: work and precision",
+                     "One mark per tolerance, 1e-3 to 1e-12; error of speeds and shaft torque over the run")
+    axes = figure.subplots(1, 2, sharey=True)
     for place, (case, title) in enumerate(dict.fromkeys((r["case"], r["title"]) for r in records)):
-        rows = [record for record in records if record["case"] == case]
-        for axis, column in zip(axes[0], ("rhs_per_ms", "ms_per_s")):
+        rows = [record for record in records if record["case"] == case and told(record)]
+        for axis, column in zip(axes, ("rhs_per_ms", "ms_per_s")):
             axis.plot([row[column] for row in rows], [row["error"] for row in rows], color=COLOURS[place],
                       marker=MARKERS[place % len(MARKERS)], label=title, **_LOOK)
-    _logarithmic(axes[0, 0], "Right-hand sides per simulated ms", "Largest relative error")
-    _logarithmic(axes[0, 1], "Processor time per simulated second [ms]", "")
-    _end_legend(axes[0, 1])
+    _logarithmic(axes[0], "Right-hand sides per simulated ms", "Largest relative error")
+    _logarithmic(axes[1], "Processor time per simulated second [ms]", "")
+    _beside(figure, axes[1])
     return figure
 
 
 def coupling(tables: Tables) -> Figure:
     """Error against communication step (above) and against processor time (below), a column per case."""
+    from matplotlib.ticker import FixedLocator, NullLocator
+
     cases = [case for case in COUPLED if any(record["case"] == case.name for record in tables["coupling"])]
-    figure, axes = _figure(10.0, 6.4, 2, len(cases), "Coupling engine and load with the FMU",
-                           "Largest speed error over the run against the same system solved as one", sharey="col")
+    figure = _figure(10.0, 6.4, "Coupling engine and load with the FMU",
+                     "Largest speed error over the run against the same system solved as one; dashed: 1e-6")
+    axes = figure.subplots(2, len(cases), sharey="col", squeeze=False)
     for column, case in enumerate(cases):
         above, below = axes[:, column]
         for place, (scheme, rows) in enumerate(_by_scheme(tables["coupling"], case.name)):
@@ -131,12 +135,14 @@ def coupling(tables: Tables) -> Figure:
             above.annotate("x  diverges", (1.0, 0.02), xycoords="axes fraction", ha="right", fontsize=7.5,
                            color="#777777")
         _logarithmic(above, "Communication step [ms]", "" if column else "Largest relative error")
+        above.xaxis.set_major_locator(FixedLocator([0.25, 0.5, 1.0, 2.0, 4.0, 8.0]))
+        above.xaxis.set_minor_locator(NullLocator())
+        above.xaxis.set_major_formatter("{x:g}")
         _logarithmic(below, "Processor time per simulated second [ms]", "" if column else "Largest relative error")
-        above.set_title(case.name, fontsize=9.5, loc="left", color="#222222")
+        above.set_title(f"{case.name}: {case.title}", fontsize=9, loc="left", color="#444444")
         for axis in (above, below):
             axis.axhline(1e-6, color="#999999", linewidth=0.7, linestyle=(0, (4, 3)), zorder=1.0)
-    _end_legend(axes[1, -1])
-    axes[0, 0].texts[0].set_position((0, 26))
+    _beside(figure, axes[1, 0])
     return figure
 
 
@@ -152,68 +158,81 @@ def _by_scheme(records: Iterable[Record], case: str) -> list[tuple[str, list[Rec
 def peers(tables: Tables) -> Figure:
     """Processor time for the same error, as bars."""
     names = [name for name in ("peers", "coupled_peers") if tables.get(name)]
-    heads = {"peers": "Driveline under constant torques", "coupled_peers": "Ripple engine and quadratic load outside"}
-    figure, axes = _figure(9.0, 1.2 + 0.26 * sum(len(tables[name]) + 2 for name in names), len(names), 1,
-                           "Time for a speed error of 1e-6", "Processor time per simulated second, one run, interleaved",
-                           sharex=True, height_ratios=[len(tables[name]) + 1 for name in names])
-    for axis, name in zip(axes[:, 0], names):
+    heads = {"peers": "Driveline under constant torques",
+             "coupled_peers": "Torque map with ripple and quadratic load, outside the FMU"}
+    figure = _figure(8.6, 1.2 + 0.24 * sum(len(tables[name]) + 2 for name in names), "Time for a speed error of 1e-6",
+                     "All in one run, interleaved; medians with quartiles. Blue: this project")
+    axes = figure.subplots(len(names), 1, squeeze=False, sharex=True,
+                           height_ratios=[len(tables[name]) + 1 for name in names])[:, 0]
+    for axis, name in zip(axes, names):
         rows = sorted(tables[name], key=lambda record: float(record["ms_per_s"]))
-        _bars(axis, [row["method"] for row in rows], [row["ms_per_s"] for row in rows],
-              [(row["low"], row["high"]) for row in rows],
-              [not row["method"].startswith(("scipy", "python-control")) for row in rows], "ms")
-        axis.set_xscale("log")
+        _dots(axis, rows, "method", "ms_per_s", [not row["method"].startswith(("scipy", "python-control"))
+                                                 for row in rows], "ms")
         axis.set_title(heads[name], fontsize=9, loc="left", color="#444444")
-    axes[-1, 0].set_xlabel("Processor time per simulated second [ms]")
-    axes[0, 0].texts[0].set_position((0, 22))
+    times = [row["ms_per_s"] for name in names for row in tables[name]]
+    axes[-1].set_xlim(0.6 * min(times), 2.2 * max(times))
+    axes[-1].set_xlabel("Processor time per simulated second [ms]")
     return figure
 
 
 def cost(tables: Tables) -> Figure:
     """What a step costs: hosts, fidelity, number of outputs; memory over the steps."""
-    figure, axes = _figure(10.0, 6.2, 2, 2, "What a communication step of 1 ms costs",
-                           "Processor time, medians with quartiles")
-    steps = [row for row in tables["stepping"] if row["us"] is not None]
-    _bars(axes[0, 0], [row["what"] for row in steps], [row["us"] for row in steps],
-          [(row["low"], row["high"]) for row in steps],
-          ["empty" not in row["what"] and "same" not in row["what"] for row in steps], "us")
-    axes[0, 0].set_xscale("log")
-    axes[0, 0].set_title("set 2 inputs, step, get 5 outputs", fontsize=9, loc="left", color="#444444")
-    models = tables["fidelity"]
-    _bars(axes[0, 1], [row["model"] for row in models], [row["fmu_us"] for row in models],
-          [(row["low"], row["high"]) for row in models], [True] * len(models), "us")
-    axes[0, 1].barh(range(len(models)), [row["kernel_us"] for row in models], height=0.62, color="#06334f")
-    axes[0, 1].set_title("fidelity: FMU, and dark its kernel alone", fontsize=9, loc="left", color="#444444")
+    figure = _figure(10.0, 6.0, "What a communication step of 1 ms costs", "Processor time, medians with quartiles")
+    parts: Any = figure.subfigures(2, 1)
+    above, below = (part.subplots(1, 2) for part in parts)
+    steps = [row for row in tables["stepping"] if row["us"] is not None and row["what"] != STATES]
+    _dots(above[0], steps, "what", "us", [not row["what"].startswith("empty") for row in steps], "us")
+    above[0].set_xlabel("Time per step [us]")
+    _models(above[1], tables["fidelity"])
     exchange = tables["exchange"]
-    axes[1, 0].errorbar([row["outputs"] for row in exchange], [row["us"] for row in exchange],
-                        [[row["us"] - row["low"] for row in exchange], [row["high"] - row["us"] for row in exchange]],
-                        color=OWN, marker="o", capsize=2, **_LOOK)
-    axes[1, 0].set_ylim(bottom=0.0)
-    axes[1, 0].set_xlabel("Outputs read per step")
-    axes[1, 0].set_ylabel("Time per step [us]")
+    below[0].errorbar([row["outputs"] for row in exchange], [row["us"] for row in exchange],
+                      [[row["us"] - row["low"] for row in exchange], [row["high"] - row["us"] for row in exchange]],
+                      color=OWN, marker="o", capsize=2, **_LOOK)
+    below[0].set_ylim(bottom=0.0)
+    below[0].set_xlabel("Outputs read per step")
+    below[0].set_ylabel("Time per step [us]")
     memory = tables["memory"]
-    axes[1, 1].plot([row["steps"] / 1e6 for row in memory], [row["resident_MB"] for row in memory], color=OWN,
-                    marker="o", **_LOOK)
-    axes[1, 1].set_ylim(0.0, 1.4 * max(row["resident_MB"] for row in memory))
-    axes[1, 1].set_xlabel("Steps [millions]")
-    axes[1, 1].set_ylabel("Memory of the process [MB]")
-    axes[0, 0].texts[0].set_position((0, 24))
+    below[1].plot([row["steps"] / 1e6 for row in memory], [row["resident_MB"] for row in memory], color=OWN, marker="o",
+                  **_LOOK)
+    below[1].set_xlim(left=0.0)
+    below[1].set_ylim(0.0, 1.4 * max(row["resident_MB"] for row in memory))
+    below[1].set_xlabel("Steps [millions]")
+    below[1].set_ylabel("Memory of the process [MB]")
+    for axis, head in zip((*above, *below), ("Set 2 inputs, step, get 5 outputs", "Fidelity", "Exchange", "Memory")):
+        axis.set_title(head, fontsize=9, loc="left", color="#444444")
     return figure
 
 
-def _bars(axis: Axes, names: list[str], values: list[float], spread: list[tuple[float, float]], ours: list[bool],
-          unit: str) -> None:
-    """Draw horizontal bars from the top with their values; those of this project in colour."""
-    places = np.arange(len(names))
-    errors = np.array([[value - low, high - value] for value, (low, high) in zip(values, spread)]).T
-    axis.barh(places, values, height=0.62, color=[OWN if own else GREY for own in ours], xerr=np.maximum(errors, 0.0),
-              error_kw={"elinewidth": 0.8, "ecolor": "#444444"})
-    for place, value, (_, high) in zip(places, values, spread):
-        axis.annotate(f"{value:.3g} {unit}", (max(value, high), place), xytext=(4, 0), textcoords="offset points",
+def _models(axis: Axes, rows: list[Record]) -> None:
+    """Draw the cost of the models as bars, the kernel's share dark."""
+    places = np.arange(len(rows))
+    axis.barh(places, [row["fmu_us"] for row in rows], height=0.62, color=LIGHT, label="FMU")
+    axis.barh(places, [row["kernel_us"] for row in rows], height=0.62, color=OWN, label="kernel alone")
+    for place, row in zip(places, rows):
+        axis.annotate(f"{row['fmu_us']:.2g} us", (row["fmu_us"], place), xytext=(4, 0), textcoords="offset points",
                       va="center", fontsize=7.5, color="#444444")
-    axis.set_yticks(places, names)
+    axis.set_yticks(places, [row["model"] for row in rows])
     axis.invert_yaxis()
     axis.grid(axis="y", visible=False)
-    axis.margins(x=0.18)
+    axis.margins(x=0.14)
+    axis.set_xlabel("Time per step, tolerance 1e-9 [us]")
+    axis.legend(loc="upper right", frameon=True, framealpha=1.0, edgecolor="none")
+
+
+def _dots(axis: Axes, rows: list[Record], name: str, column: str, ours: list[bool], unit: str) -> None:
+    """Draw a logarithmic line of dots from the top, with quartiles and values; those of this project in colour."""
+    for place, (row, own) in enumerate(zip(rows, ours)):
+        value, colour = row[column], OWN if own else OTHERS
+        axis.plot([row["low"], row["high"]], [place, place], color=colour, linewidth=3.0, alpha=0.45,
+                  solid_capstyle="round")
+        axis.plot(value, place, marker="o", markersize=6.0, color=colour, markeredgewidth=0.0)
+        axis.annotate(f"{value:.3g} {unit}", (max(value, row["high"]), place), xytext=(7, 0),
+                      textcoords="offset points", va="center", fontsize=7.5, color="#444444")
+    axis.set_xscale("log")
+    axis.set_xlim(0.7 * min(row["low"] for row in rows), 2.5 * max(row["high"] for row in rows))
+    axis.set_yticks(range(len(rows)), [row[name] for row in rows])
+    axis.set_ylim(len(rows) - 0.4, -0.6)
+    axis.xaxis.set_major_formatter("{x:g}")
 
 
 FIGURES: dict[str, tuple[tuple[str, ...], Callable[[Tables], Figure]]] = {

@@ -102,7 +102,7 @@ class Monolith:
 
 
 def speed_error(speeds: Array, reference: Array) -> float:
-    """Return the largest error of both speeds over all points, each relative to its largest value; NaN counts as inf."""
+    """Return the largest error of both speeds over all points, each by its largest value; inf for what is no number."""
     if speeds.shape != reference.shape or not np.isfinite(speeds).all():
         return float("inf")
     largest = np.abs(reference).max(axis=1, keepdims=True)

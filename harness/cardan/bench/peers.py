@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -115,7 +116,7 @@ def _compared(peers: list[Peer], system: Monolith, options: Options, tell: Tell)
     for number, peer in enumerate(peers):
         tuned.append(tune(peer, reference))
         tell(0.5 * (number + 1) / len(peers))
-    jobs = {one.peer.name: repeated(lambda one=one: one.peer.solve(one.setting).seconds) for one in tuned}
+    jobs = {one.peer.name: repeated(partial(_seconds, one)) for one in tuned}
     samples = interleaved(jobs, 3 if options.quick else 5, lambda done: tell(0.5 + 0.5 * done))
     span = float(POINTS[-1])
     records: list[Record] = []
@@ -126,6 +127,10 @@ def _compared(peers: list[Peer], system: Monolith, options: Options, tell: Tell)
                         "ms_per_s": time.median, "low": time.low, "high": time.high,
                         **{f"times_{key}": _against(samples, name, base) for key, base in _bases(peers).items()}})
     return records
+
+
+def _seconds(one: Tuned) -> float:
+    return one.peer.solve(one.setting).seconds
 
 
 def _bases(peers: list[Peer]) -> dict[str, str]:

@@ -27,3 +27,8 @@ class Options:
     def repeats(self) -> int:
         """Rounds of interleaved timings."""
         return 3 if self.quick else 9
+
+
+def told(record: Record) -> bool:
+    """Return whether the reference of an error is good enough to tell it."""
+    return bool(record["error"] > 3.0 * record["floor"])

@@ -128,7 +128,7 @@ def _made_by(options: Options) -> dict[str, Any]:
     return {**versions(), "kernel": cardan_kernel.KERNEL, "scipy": package_version("scipy"),
             "control": package_version("control"), "processor": _processor(), "cores": os.cpu_count(),
             "load_at_start": load, "quick": options.quick,
-            "time": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")}
+            "time": datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%MZ")}
 
 
 def _processor() -> str:

@@ -24,13 +24,14 @@ OUTPUTS = ("input.speed", "output.speed", "input.angle", "output.angle", "shaft.
 STEP, COUNT = 1e-3, 1000
 COARSE, DEFAULT = 1e-6, 1e-9  # tolerances: more than enough for an error of 1e-6 at this step, and the driveline's own
 
-EMPTY, OURS = "empty pythonfmu FMU", "driveline FMU, tolerance 1e-6"
-KERNEL = "kernel in process, tolerance 1e-6"
+EMPTY, LEAN = "empty pythonfmu FMU", "empty FMU with getters and setters of its own"
+OURS = "driveline FMU, tolerance 1e-6"
+KERNEL, SHARE = "kernel in process, tolerance 1e-6", "its step alone: the kernel's share of the FMU's"
 STATES = "save, restore and free the state"
 
 
 def measure(options: Options, tell: Tell) -> Tables:
-    """Return the table ``stepping``: one communication step of 1 ms (set 2, step, get 5) in everything that takes it."""
+    """Return the table ``stepping``: one communication step of 1 ms (set 2, step, get 5) in all that takes it."""
     from cardan_build import build, default_fmu
 
     with ExitStack() as stack:
@@ -39,7 +40,7 @@ def measure(options: Options, tell: Tell) -> Tables:
         portable = build(folder / "portable" / "CardanDriveline.fmu", portable=True)
         tell(0.2)
         jobs: dict[str, Job] = {}
-        for name, path, tolerance in ((EMPTY, empty, None), ("the same with getters and setters of its own", lean, None),
+        for name, path, tolerance in ((EMPTY, empty, None), (LEAN, lean, None),
                                       (OURS, default_fmu(), COARSE),
                                       ("driveline FMU, tolerance 1e-9", default_fmu(), DEFAULT),
                                       ("driveline FMU without its compiled kernel", portable, COARSE)):
@@ -47,7 +48,7 @@ def measure(options: Options, tell: Tell) -> Tables:
             jobs[name] = _loop(instance, path in (empty, lean), tolerance)
             if name == OURS:
                 jobs[STATES] = _states(instance)
-        jobs[KERNEL] = _kernel(cardan_kernel.Driveline)
+        jobs[KERNEL], jobs[SHARE] = _kernel(True), _kernel(False)
         samples = interleaved(jobs, options.repeats * 2, lambda done: tell(0.2 + 0.5 * done))
         records = [_record(name, times, samples[EMPTY]) for name, times in samples.items()]
         records += _in_c(folder, {EMPTY: empty, OURS: default_fmu()}, options)
@@ -89,14 +90,14 @@ def _states(instance: Instance) -> Job:
     return job
 
 
-def _kernel(kernel: Any) -> Job:
-    """Return the same loop without FMI: methods of the kernel's class, called from Python."""
+def _kernel(exchange: bool) -> Job:
+    """Return the same loop without FMI: methods of the kernel's class, called from Python; or its step alone."""
     index = cardan_kernel.INDEX
     sent, got = [index[name] for name in INPUTS], [index[name] for name in OUTPUTS]
-    driveline = kernel()
+    driveline: Any = cardan_kernel.Driveline()
     driveline.setup_experiment(0.0, None, COARSE)
     driveline.enter_initialization_mode()
-    for name, value in ORDINARY.items():
+    for name, value in {**ORDINARY, INPUTS[0]: TORQUE, INPUTS[1]: RESISTANCE}.items():
         driveline.set(name, value)
     driveline.exit_initialization_mode()
     write, step, read = driveline.set_real, driveline.do_step, driveline.get_real
@@ -109,7 +110,13 @@ def _kernel(kernel: Any) -> Job:
             read(got)
         return (time.process_time() - begin) / COUNT
 
-    return job
+    def step_alone() -> float:
+        begin = time.process_time()
+        for i in range(COUNT):
+            step(i * STEP, STEP)
+        return (time.process_time() - begin) / COUNT
+
+    return job if exchange else step_alone
 
 
 def _in_c(folder: Path, fmus: Mapping[str, Path], options: Options) -> list[Record]:
@@ -120,8 +127,10 @@ def _in_c(folder: Path, fmus: Mapping[str, Path], options: Options) -> list[Reco
         samples: dict[str, list[float]] = {name: [] for name in fmus}
         for _ in range(2 if options.quick else 5):  # in turns, a process each
             for name, path in fmus.items():
-                wanted = (INPUTS, OUTPUTS, ORDINARY, COARSE) if name == OURS else (("u1", "u2"), EMPTY_OUTPUTS, {}, None)
-                samples[name] += host.times(path, *wanted)
+                if name == OURS:
+                    samples[name] += host.times(path, INPUTS, OUTPUTS, ORDINARY, COARSE)
+                else:
+                    samples[name] += host.times(path, ("u1", "u2"), EMPTY_OUTPUTS, {}, None)
     except NoHost as reason:
         return [{"what": label, "us": None, "low": None, "high": None, "ratio": None, "remark": str(reason)}
                 for label in labels.values()]

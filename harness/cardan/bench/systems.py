@@ -84,14 +84,14 @@ class Coupled:
 _MAP = {"type": "map", "speeds": [0.0, 200.0, 400.0, 600.0], "throttles": [0.0, 1.0],
         "torques": [[10.0, -10.0, -25.0, -40.0], [150.0, 215.0, 190.0, 120.0]]}
 
-SMOOTH = Coupled("smooth", "torque map, quadratic load, 950 rpm", 100.0, 0.0, 1.0, _MAP,
+SMOOTH = Coupled("smooth", "torque map, quadratic load", 100.0, 0.0, 1.0, _MAP,
                  {"type": "quadratic", "coefficient": 2e-2}, (125, 250, 500, 1000, 2000, 4000))
-RIPPLE = Coupled("ripple", "torque map with 80 N.m second-order ripple, quadratic load, 3000 rpm", SPEED, 0.0, 1.0,
+RIPPLE = Coupled("ripple", "map with 80 N.m ripple", SPEED, 0.0, 1.0,
                  {"type": "four_stroke", "map": {key: value for key, value in _MAP.items() if key != "type"},
                   "orders": [2], "amplitudes": [80.0]},
                  {"type": "quadratic", "coefficient": 2e-3}, (250, 500, 1000, 1250, 2000, 4000))
 # Twist and speed fit the torques at the start, so that the load is what is hard and not a transient before it.
-STEEP = Coupled("steep", "200 N.m with 80 N.m ripple against a load of 3000 w^4 N.m", 0.54, 0.014, 1.0,
+STEEP = Coupled("steep", "load of 3000 w^4", 0.54, 0.014, 1.0,
                 {"type": "four_stroke", "torque": 200.0, "orders": [2], "amplitudes": [80.0]},
                 {"type": "power", "coefficient": 3000.0, "exponent": 4.0}, (100, 250, 500, 1000, 2000, 4000))
 COUPLED = (SMOOTH, RIPPLE, STEEP)

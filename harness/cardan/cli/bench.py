@@ -28,8 +28,8 @@ def bench(
     Exit code 0: measured, and every hard case held. 1: a hard case did not. 2: bad input.
     """
     with expected_errors(as_json):
-        from cardan.bench.report import prepare, write
         from cardan.bench.records import Options
+        from cardan.bench.report import prepare, write
         from cardan.bench.sections import chosen, run
 
         names = chosen([name.strip() for name in only.split(",") if name.strip()])
