@@ -6,6 +6,8 @@ from typing import Callable, List, Optional
 from .variables import DEGREES, HALF_PI, INDEX, RPM, VARIABLES, Variable
 
 HOLD_DEGREES = (0, 1, 3, 5)
+# A joint angle that a master lets end at zero may miss it by rounding, rad.
+ROUNDING = 1e-12
 
 
 def shown(value: float, unit: str) -> str:
@@ -44,6 +46,8 @@ def problem(variable: Variable, value: float) -> Optional[str]:
         Value in the variable's unit.
     """
     low, high = variable.minimum, variable.maximum
+    if low is not None and variable.name in ("joint1.angle", "joint2.angle"):
+        low -= ROUNDING
     good = isfinite(value) and (low is None or value >= low) and (high is None or value <= high)
     if variable.name == "hold.degree":
         good = value in HOLD_DEGREES
@@ -106,7 +110,7 @@ def bend_problem(joint: int, angle: float, rate: float, acceleration: float, ste
         times.append(-rate / acceleration)
     for s in times:
         at = angle + s * (rate + 0.5 * s * acceleration)
-        if not 0.0 <= at < HALF_PI:
+        if not -ROUNDING <= at < HALF_PI:
             return (f"joint{joint}.angle reaches {shown(at, 'rad')} at {s:.6g} s of the step, from "
                     f"{shown(angle, 'rad')} with der1 = {rate:g} rad/s, der2 = {acceleration:g} rad/s2: it must be at "
                     f"least 0 and below 90 deg; give a smaller rate or a shorter step")

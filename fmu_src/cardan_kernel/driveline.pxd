@@ -5,7 +5,7 @@ from .values cimport Values
 cdef extern from "math.h":
     bint isfinite(double x) noexcept
 
-cdef double HALF_PI
+cdef double HALF_PI, LOWEST_BEND
 
 @cython.final
 cdef class Driveline(Values):

@@ -8,7 +8,9 @@ from .integrator import DONE, NOT_FINITE, TOO_MANY_STEPS
 from .memory import (
     INITIALIZING,
     INSTANTIATED,
+    LAYOUT,
     LEFT_INITIALIZATION,
+    MARK,
     MASTER_TOLERANCE,
     MODE,
     RUNNING,
@@ -19,6 +21,8 @@ from .memory import (
 from .places import BEND1, BEND2, COMMAND, TORQUE_IN, TORQUE_OUT
 from .values import FIRST_INPUT, FIRST_OUTPUT, Values
 from .variables import HALF_PI, VARIABLES
+
+LOWEST_BEND = -checks.ROUNDING
 
 
 class Driveline(Values):
@@ -176,14 +180,14 @@ class Driveline(Values):
         a0 = z[place]
         a1 = z[place + 1]
         a2 = z[place + 2]
-        if not 0.0 <= a0 < HALF_PI:
+        if not LOWEST_BEND <= a0 < HALF_PI:
             return False
         if a1 == 0.0 and a2 == 0.0:
             return True
-        if not 0.0 <= a0 + h * (a1 + 0.5 * h * a2) < HALF_PI:
+        if not LOWEST_BEND <= a0 + h * (a1 + 0.5 * h * a2) < HALF_PI:
             return False
         if a2 != 0.0 and 0.0 < -a1 / a2 < h:
-            return 0.0 <= a0 - 0.5 * a1 * a1 / a2 < HALF_PI
+            return LOWEST_BEND <= a0 - 0.5 * a1 * a1 / a2 < HALF_PI
         return True
 
     def input_problems(self, h):
@@ -204,6 +208,9 @@ class Driveline(Values):
 
     def set_state(self, state: bytes) -> None:
         """Restore a state from `get_state`; refused where the length is not that of this version."""
+        if len(state) == 8 * len(self.stepper.store) and memoryview(state).cast("d")[MARK] != LAYOUT:
+            self.misuse("state is refused: these bytes are no state of this version of the driveline")
+            return
         if len(state) != 8 * len(self.stepper.store):
             self.misuse(f"state of {len(state)} bytes is refused: this version's states have "
                         f"{8 * len(self.stepper.store)} bytes")

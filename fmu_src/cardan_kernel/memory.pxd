@@ -27,9 +27,12 @@ cdef enum:
     FRESH_LOADS = 44
     FRESH_LAYOUT = 45
     UNCHECKED = 46
+    MARK = 47
     VARS = 48
     INSTANTIATED = 0
     INITIALIZING = 1
     LEFT_INITIALIZATION = 2
     RUNNING = 3
     TERMINATED = 4
+
+cdef double LAYOUT

@@ -36,6 +36,7 @@ FRESH_MOTION = 43
 FRESH_LOADS = 44
 FRESH_LAYOUT = 45
 UNCHECKED = 46  # parameters were set and not yet judged
+MARK = 47  # tells a state of this layout from other bytes
 
 VARS = 48
 
@@ -45,3 +46,6 @@ INITIALIZING = 1
 LEFT_INITIALIZATION = 2  # parameters may still be found wrong
 RUNNING = 3
 TERMINATED = 4
+
+# Value of MARK; a new one for each change of the layout.
+LAYOUT = 20261.0

@@ -8,6 +8,8 @@ from .memory import (
     FRESH_LOADS,
     FRESH_MOTION,
     INSTANTIATED,
+    LAYOUT,
+    MARK,
     MODE,
     RUNNING,
     STEPS,
@@ -77,6 +79,7 @@ class Values:
             self.kinds[reference] = _kind(variable)
             self.z[VARS + reference] = float(variable.start or 0.0)
         self.z[MODE] = INSTANTIATED
+        self.z[MARK] = LAYOUT
         self.z[UNCHECKED] = 1.0
 
     def refuse(self, text: str) -> bool:

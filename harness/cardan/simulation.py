@@ -39,8 +39,8 @@ class Interrupted(KeyboardInterrupt):
         super().__init__(result.info.message)
 
 
-def simulate(scenario: Scenario, *, fmu: str | os.PathLike[str] | None = None, progress: Progress | None = None,
-             announce: Callable[[str], None] | None = None) -> Result:
+def simulate(scenario: Scenario | str | Path, *, fmu: str | os.PathLike[str] | None = None,
+             progress: Progress | None = None, announce: Callable[[str], None] | None = None) -> Result:
     """Run a scenario.
 
     Only the listed outputs are recorded; they and the shaft motions that the models need are exchanged, at the points
@@ -48,8 +48,8 @@ def simulate(scenario: Scenario, *, fmu: str | os.PathLike[str] | None = None, p
 
     Parameters
     ----------
-    scenario : Scenario
-        What to run.
+    scenario : Scenario, str or Path
+        What to run: a scene, its file, or the name of a shipped one.
     fmu : path-like, optional
         FMU to use; by default the driveline FMU of this installation, built on first use.
     progress : callable, optional
@@ -70,6 +70,10 @@ def simulate(scenario: Scenario, *, fmu: str | os.PathLike[str] | None = None, p
     Interrupted
         On Ctrl-C, with what was recorded.
     """
+    from cardan.scenario import Scenario as Kind
+
+    if not isinstance(scenario, Kind):
+        scenario = Kind.read(scenario)
     method = scheme_of(scenario)
     loading = time.perf_counter()
     with Instance(_fmu_path(fmu)) as instance:
@@ -147,31 +151,40 @@ def _fmu_path(fmu: str | os.PathLike[str] | None) -> Path:
 def _run(master: Master, recorder: Recorder, start: float, stop: float, h: float, count: int,
          progress: Progress | None) -> tuple[str, bool]:
     """Do all steps; return why it ended early (empty: it did not) and whether the user wanted that."""
-    advance, record = master.scheme.advance, recorder.record
-    record()
+    recorder.record()
     t, done, chunk = start, 0, 1
     with _Keyboard() as keyboard:
-        try:
-            while done < count:
-                last = min(done + chunk, count)
-                clock = time.perf_counter()
-                for i in range(done + 1, last + 1):
-                    end = start + i * h if i < count else stop
-                    advance(master, t, end)
-                    record()
-                    t = end
-                done = last
-                if time.perf_counter() - clock < 0.5 * PULSE:
-                    chunk *= 2
-                if progress is not None:
-                    progress(done / count)
-                if keyboard.pressed and done < count:
-                    return f"stopped by the user at t = {t:.6g} s", True
-        except CardanError as error:
-            return str(error), False
-        except (ArithmeticError, ValueError) as error:
-            return f"the models outside the FMU failed after t = {t:.6g} s: {error}", False
+        while done < count:
+            clock = time.perf_counter()
+            message, done, t = _steps(master, recorder, keyboard, t, done, min(done + chunk, count),
+                                      lambda i: start + i * h if i < count else stop)
+            if message:
+                return message, False
+            taken = time.perf_counter() - clock
+            chunk = 2 * chunk if taken < 0.5 * PULSE else max(1, chunk // 4) if taken > 4.0 * PULSE else chunk
+            if progress is not None:
+                progress(done / count)
+            if keyboard.pressed and done < count:
+                return f"stopped by the user at t = {t:.6g} s", True
     return "", False
+
+
+def _steps(master: Master, recorder: Recorder, keyboard: _Keyboard, t: float, done: int, last: int,
+           point: Callable[[int], float]) -> tuple[str, int, float]:
+    """Do steps up to the number `last` or the keyboard; return why it failed (empty: it did not), steps done, time."""
+    advance, record = master.scheme.advance, recorder.record
+    try:
+        while done < last and not keyboard.pressed:
+            end = point(done + 1)
+            advance(master, t, end)
+            record()
+            t = end
+            done += 1
+    except CardanError as error:
+        return str(error), done, t
+    except (ArithmeticError, ValueError) as error:
+        return f"the models outside the FMU failed after t = {t:.6g} s: {error}", done, t
+    return "", done, t
 
 
 class _Keyboard:

@@ -72,6 +72,19 @@ def test_joint_at_or_beyond_90_degrees(angle, words):
     assert "joint1.angle" in driveline.last_error and words in driveline.last_error
 
 
+def test_joint_that_straightens_to_zero():
+    """20 deg to 0 in a second of 1 ms steps: the end misses zero by rounding and is taken all the same."""
+    beta = math.radians(20)
+    driveline = start(cardan_kernel.Driveline, {**GOOD, "joint1.angle": beta, "joint1.angle.der1": -beta})
+    for i in range(1000):
+        driveline.set("joint1.angle", beta - beta * (i * 1e-3))
+        assert driveline.do_step(i * 1e-3, 1e-3), driveline.last_error
+    driveline.set("joint1.angle", -2e-17)
+    driveline.set("joint1.angle.der1", 0.0)
+    assert driveline.do_step(1.0, 1e-3), driveline.last_error
+    assert abs(driveline.get("joint1.ratio") - 1.0) < 1e-15
+
+
 def test_joint_that_moves_through_90_degrees_during_the_step():
     """Also where only the middle of the step is beyond it."""
     driveline = start(cardan_kernel.Driveline, GOOD)

@@ -66,6 +66,17 @@ def test_state_of_another_version_is_refused():
     assert driveline.do_step(0.0, 1e-3)
 
 
+def test_bytes_that_are_no_state_are_refused(kernel):
+    driveline = start(kernel, BASE)
+    before = driveline.get_state()
+    for junk in (bytes(len(before)), b"\xff" * len(before)):
+        driveline.set_state(junk)
+        assert "no state of this version" in driveline.last_error
+        assert driveline.get_state() == before
+        assert not driveline.do_step(0.0, 1e-3)
+    assert driveline.do_step(0.0, 1e-3)
+
+
 def test_asking_for_outputs_changes_nothing():
     """Outputs are computed when asked for; a run that asks and one that does not end alike."""
     quiet, curious = start(cardan_kernel.Driveline, BASE), start(cardan_kernel.Driveline, BASE)
