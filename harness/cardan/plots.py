@@ -162,11 +162,14 @@ def _panel(axis: Axes, time: Column, unit: str, lines: list[Line]) -> None:
             _curve(axis, time, line, span, style)
     quantity = QUANTITIES.get(unit, "Value")
     written = {"gear": "", "pedal": " [%]"}.get(unit, f" [{unit}]")
-    axis.set_ylabel(f"{quantity}{written}")
+    axis.set_ylabel(f"{quantity}{written}", parse_math=False)
     axis.yaxis.set_major_locator(MaxNLocator(5, integer=unit == "gear"))
     axis.margins(y=0.08)
     axis.ticklabel_format(axis="y", useOffset=False, scilimits=(-4, 6))
-    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, handlelength=1.4, borderaxespad=0.6)
+    legend = axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, handlelength=1.4,
+                         borderaxespad=0.6)
+    for text in legend.get_texts():
+        text.set_parse_math(False)  # names of other FMUs may hold a $
 
 
 def _curve(axis: Axes, time: Column, line: Line, span: float, style: dict[str, Any]) -> None:
@@ -212,8 +215,9 @@ def _caption(figure: Figure, top: Axes, result: Result) -> None:
     parts = [f"{info.coupling}, step {1e3 * info.communication_step:g} ms" if info.coupling else "",
              f"{info.kernel} kernel" if info.kernel in ("compiled", "interpreted") else info.kernel,
              f"energy residual {np.abs(result[METER]).max():.2g} J" if METER in result.columns else ""]
-    top.set_title("   |   ".join(part for part in parts if part), loc="left", fontsize=7.5, color="#777777")
+    top.set_title("   |   ".join(part for part in parts if part), loc="left", fontsize=7.5, color="#777777",
+                  parse_math=False)
     figure.suptitle(info.title or "Cardan driveline", x=0.01, ha="left", fontsize=11.5, fontweight="bold",
-                    color="#222222")
+                    color="#222222", parse_math=False)  # a title may speak of dollars
     if not info.completed:
         top.set_title(f"ended early at {info.reached_time:g} s", loc="right", fontsize=8.0, color="#c0392b")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
@@ -64,7 +64,8 @@ def load(path: str | os.PathLike[str]) -> Result:
         raise InputError(f"{path} is no result file: {error}") from None
 
 
-def writable_problems(path: str | os.PathLike[str], formats: tuple[str, ...]) -> list[str]:
+def writable_problems(path: str | os.PathLike[str], formats: tuple[str, ...],
+                      inputs: Iterable[str | os.PathLike[str]] = ()) -> list[str]:
     """Say beforehand why a file could not be written; nothing is left behind.
 
     Parameters
@@ -73,6 +74,8 @@ def writable_problems(path: str | os.PathLike[str], formats: tuple[str, ...]) ->
         The file to be.
     formats : tuple of str
         Endings that are known.
+    inputs : iterable of path-like, optional
+        Files that are read and must not be written over, by whatever name.
 
     Returns
     -------
@@ -84,6 +87,16 @@ def writable_problems(path: str | os.PathLike[str], formats: tuple[str, ...]) ->
         return [f"{path} is a directory; give a file name"]
     if path.suffix.lower() not in formats:
         return [f"{path}: unknown ending {path.suffix!r}; choose one of {', '.join(formats)}"]
+    places = [path, _meta_path(path)] if path.suffix.lower() == ".csv" else [path]
+    for place in places:
+        for read in inputs:
+            if _same(place, Path(read)):
+                return [f"{place} would write over {read}, which is read; choose another name"]
+        # A folder that can be written to allows to replace a file that is meant to be kept.
+        if place.exists() and not os.access(place, os.W_OK):
+            return [f"{place} cannot be written: it is write-protected; choose another name"]
+        if place.is_dir():
+            return [f"{place} is a directory, and is written beside {path}; choose another name"]
     try:
         handle, probe = tempfile.mkstemp(prefix=".cardan_", dir=path.parent)
     except OSError as error:
@@ -91,6 +104,14 @@ def writable_problems(path: str | os.PathLike[str], formats: tuple[str, ...]) ->
     os.close(handle)
     os.unlink(probe)
     return []
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Return whether two names lead to the same file."""
+    try:
+        return one.samefile(other)
+    except OSError:  # one of them is not there
+        return False
 
 
 @contextmanager

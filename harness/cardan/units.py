@@ -102,9 +102,10 @@ _EXAMPLES: dict[Exponents, tuple[str, ...]] = {
     _PRESSURE: ("1 bar", "100 kPa"),
 }
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:inf|nan|infinity)\b)\s*(.*?)\s*\Z",
-                     re.IGNORECASE)
-_TOKEN = re.compile(r"(1|%|\N{DEGREE SIGN}|[A-Za-z]+)(?:\^|\*\*)?(-?\d+)?")
+_NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[+-]?(?:inf|nan|infinity)\b)"
+                     r"\s*(.*?)\s*\Z", re.IGNORECASE)
+_HEADING = re.compile(r"\s*(.*?)\s*\[([^\[\]]*)\]\s*\Z")
+_TOKEN = re.compile(r"(1|%|\N{DEGREE SIGN}|[A-Za-z]+)(?:\^|\*\*)?(-?[0-9]+)?")
 
 
 def _symbol(name: str) -> Unit:
@@ -136,8 +137,13 @@ def parse_unit(text: str) -> Unit:
         if token is None:
             raise UnitError(f"malformed unit {text!r}")
         unit = _symbol(token[1])
-        power = sign * int(token[2] or 1)
-        factor *= unit.factor**power
+        try:
+            power = sign * int(token[2] or 1)
+            factor *= unit.factor**power
+        except (ArithmeticError, ValueError):  # ValueError: an exponent of thousands of digits
+            factor = math.inf
+        if not 0.0 < factor < math.inf:
+            raise UnitError(f"unit {text!r} is beyond the range of numbers")
         exponents = [e + power * u for e, u in zip(exponents, unit.exponents)]
         place = token.end()
         if place == len(rest):
@@ -170,7 +176,10 @@ def to_si(value: float | str, unit: str) -> float:
         expected unit and examples. Infinite and NaN numbers pass: ranges are the caller's business.
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return float(value)
+        try:
+            return float(value)
+        except OverflowError:
+            raise UnitError("a whole number beyond the range of numbers") from None
     wanted = unit or "1"
     hint = f"expected {'a plain number' if wanted == '1' else 'unit ' + wanted}, for example " + " or ".join(
         repr(e) for e in examples(unit))
@@ -179,8 +188,12 @@ def to_si(value: float | str, unit: str) -> float:
     found = _NUMBER.match(value)
     if found is None:
         raise UnitError(f"{value!r} is no number with a unit; {hint}")
+    try:
+        number = float(found[1])
+    except ValueError:  # letters that only look like those of "inf"
+        raise UnitError(f"{value!r} is no number with a unit; {hint}") from None
     if found[2] == "":
-        return float(found[1])
+        return number
     try:
         given = parse_unit(found[2])
     except UnitError as error:
@@ -188,7 +201,7 @@ def to_si(value: float | str, unit: str) -> float:
     target = parse_unit(unit)
     if given.exponents != target.exponents:
         raise UnitError(f"{value!r}: unit {found[2]!r} does not fit; {hint}")
-    return float(found[1]) * given.factor / target.factor
+    return number * given.factor / target.factor
 
 
 def from_si(value: float, unit: str, display: str) -> float:
@@ -203,3 +216,9 @@ def from_si(value: float, unit: str, display: str) -> float:
     if source.exponents != target.exponents:
         raise UnitError(f"{display!r} is no unit for {unit!r}")
     return value * source.factor / target.factor
+
+
+def split_heading(text: str) -> tuple[str, str]:
+    """Return name and unit of a column heading: ``"T [kN.m]"`` is ``("T", "kN.m")``; without brackets no unit."""
+    found = _HEADING.match(text)
+    return (found[1], found[2]) if found is not None else (text.strip(), "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import signal
 import subprocess
 import sys
@@ -12,6 +13,9 @@ from pathlib import Path
 
 import pytest
 from cardan import Result
+from cardan.cli.app import app
+from cardan.errors import InputError
+from typer.testing import CliRunner
 
 SCENE = """
 [scene]
@@ -126,6 +130,69 @@ def test_bad_input_ends_with_exit_code_2(run: Run, tmp_path: Path, files: Callab
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
     assert files() == {"broken.toml", "none.toml"}
+
+
+@pytest.mark.parametrize("extra", [("--bogus",), ("a", "b")])
+def test_usage_errors_are_json_too(run: Run, extra: tuple[str, ...]) -> None:
+    for done in (run("simulate", "good.toml", "--json", *extra), run("simulate", "--json")):
+        assert done.returncode == 2
+        assert not json.loads(done.stdout)["completed"]
+        assert len(json.loads(done.stdout)["errors"]) == 1
+        assert "Error" in done.stderr
+
+
+@pytest.mark.parametrize("name", ["scene.csv", "drive.csv", "link.csv", "fmu.csv"])
+def test_what_is_read_is_never_written_over(run: Run, tmp_path: Path, fmu: Path, name: str) -> None:
+    drive = '[load]\ntype = "csv"\nfile = "drive.csv"\ncolumn = "torque"\n'
+    (tmp_path / "scene.csv").write_text(SCENE + drive)
+    (tmp_path / "drive.csv").write_text("time,torque\n0,0\n1,-1\n")
+    (tmp_path / "fmu.csv").write_bytes(fmu.read_bytes())
+    (tmp_path / "link.csv").symlink_to("drive.csv")
+    before = (tmp_path / name).read_bytes()
+    done = run("simulate", "scene.csv", "--fmu", "fmu.csv", "-o", name)
+    assert done.returncode == 2, done.stderr
+    assert f"error: {name} would write over" in done.stderr
+    assert "kernel" not in done.stderr  # nothing has run
+    assert (tmp_path / name).read_bytes() == before
+
+
+def test_a_failed_save_loses_no_run(tmp_path: Path, fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise InputError("run.csv cannot be written: No space left on device")
+
+    monkeypatch.setattr(Result, "save", full)
+    (tmp_path / "good.toml").write_text(SCENE)
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["simulate", "good.toml", "--fmu", str(fmu), "-o", "run.csv", "--plot", "run.svg"])
+    assert done.exit_code == 1
+    assert "error: run.csv cannot be written" in done.output
+    assert "real-time factor" in done.output
+    assert "run.svg" in done.output
+    assert (tmp_path / "run.svg").is_file()
+
+
+@pytest.mark.parametrize("width", ["20", "200"])
+def test_titles_and_figures_stand_as_they_are(run: Run, fmu: Path, monkeypatch: pytest.MonkeyPatch, width: str) -> None:
+    monkeypatch.setenv("COLUMNS", width)
+    title = "[bold]a[/] :smile: $5 and $_6"
+    done = run("simulate", "good.toml", "--fmu", str(fmu), "--set", f'scene.title="{title}"', "--plot", "run.svg")
+    assert done.returncode == 0, done.stderr
+    assert title in done.stdout
+    row = next(line.split() for line in done.stdout.splitlines() if "output.speed" in line)
+    assert row == ["output.speed", "rpm", "0", "111.77", "55.883", "111.77"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full and a POSIX shell")
+@pytest.mark.parametrize(("streams", "code"), [
+    (">&-", 1), (">/dev/full", 1), ("--json >/dev/full", 1), ("2>&-", 0), ("2>/dev/full", 0), (">&- 2>&-", 1),
+    ("<&- >&- 2>&-", 1)])
+def test_closed_and_full_streams_cost_no_run(run: Run, fmu: Path, tmp_path: Path, streams: str, code: int) -> None:
+    line = f"{shlex.join([*COMMAND, 'simulate', 'good.toml', '--fmu', str(fmu), '-o', 'run.csv'])} {streams}"
+    done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+    assert ("stdout cannot be written" in done.stderr) == (code == 1 and "2>" not in streams)
+    assert len(Result.load(tmp_path / "run.csv")) == 21
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to other processes")

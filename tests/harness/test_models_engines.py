@@ -182,3 +182,29 @@ def test_broken_series_say_where(tmp_path: Path, text: str, key: str, word: str)
     with pytest.raises(ParameterError, match=word) as caught:
         CsvTorque(file=path, column="torgue" if key == "column" else "M")
     assert caught.value.key == key
+
+
+def test_units_in_the_headings_of_a_series(tmp_path: Path) -> None:
+    path = tmp_path / "m.csv"
+    path.write_text("t [ms],T [kN.m],p [bar],x [what]\n0,1,1,1\n1000,2,1,1\n")
+    for column in ("T [kN.m]", "T"):
+        engine = CsvTorque(file=path, column=column, interpolation="linear")
+        assert engine.torque(0.5, [], Shaft(0.0, 0.0, 0.0), Bus()) == pytest.approx((1500.0, 1000.0, 0.0))
+    for column in ("p", "x"):
+        with pytest.raises(ParameterError, match="unit") as caught:
+            CsvTorque(file=path, column=column)
+        assert caught.value.key == "column"
+
+
+def test_rows_at_nearly_the_same_time_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "m.csv"
+    path.write_text("t,T\n0,1\n1e-320,2\n")
+    with pytest.raises(ParameterError, match="less than 1e-09 s at data row 2"):
+        CsvTorque(file=path, column="T")
+
+
+def test_an_engine_without_torque_and_orders_without_amplitudes_are_refused() -> None:
+    with pytest.raises(ParameterError, match="no torque at all"):
+        FourStroke()
+    with pytest.raises(ParameterError, match="without amplitudes"):
+        FourStroke(torque_=1.0, orders=(2.0,))

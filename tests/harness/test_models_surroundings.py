@@ -158,3 +158,29 @@ def test_without_states_the_models_cost_next_to_nothing() -> None:
     before = models.x
     models.advance(0.0, 1.0, None, None)  # type: ignore[arg-type]
     assert models.x is before
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 1e-8])
+def test_states_that_are_much_too_fast_end_the_run(tolerance: float,
+                                                   monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("cardan.models.stepping.MOST", 2000)  # the real limit takes ten seconds
+    engine = TorqueMap(speeds=(0.0, 100.0), throttles=(0.0, 1.0), torques=((0.0, 0.0), (50.0, 100.0)), lag=1e-9)
+    world = Surroundings(scene(engine, QuadraticLoad(coefficient=0.0)), tolerance=tolerance)
+    world.start(0.0, Shaft(0.0, 10.0, 0.0), Shaft(0.0, 10.0, 0.0))
+
+    def motion(s: float) -> Shaft:
+        return Shaft(0.0, 10.0 + 100.0 * s, 100.0)
+
+    with pytest.raises(ArithmeticError, match=r"more than 2000 sub-steps of .* s in a communication step of 0\.01 s"):
+        world.advance(0.0, 0.01, motion, motion)
+
+
+def test_a_coupling_with_short_steps_does_not_come_round_that_limit() -> None:
+    engine = TorqueMap(speeds=(0.0, 100.0), throttles=(0.0, 1.0), torques=((0.0, 0.0), (50.0, 100.0)), lag=1e-9)
+    load = QuadraticLoad(coefficient=0.0)
+    made = SimpleNamespace(engine=engine, load=load, driver=None, communication_step=1e-3)
+    world = Surroundings(made, tolerance=1e-8)
+    still = Shaft(0.0, 0.0, 0.0)
+    world.start(0.0, still, still)
+    with pytest.raises(ArithmeticError, match=r"communication step of 0\.001 s"):
+        world.advance(0.0, 1e-7, lambda s: still, lambda s: still)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -188,3 +189,17 @@ def test_fast_swings_are_drawn_as_bands(tmp_path: Path) -> None:
     assert np.isnan(torque.lines[0].get_ydata()).all()
     assert not np.isnan(twist.lines[0].get_ydata()).any()
     assert torque.collections[0].get_paths()[0].get_extents().height == pytest.approx(2.0, rel=0.05)
+
+
+def test_a_write_protected_file_is_refused_beforehand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("kept")
+    monkeypatch.setattr("os.access", lambda *_: False)  # root may write to all
+    assert "write-protected" in writable_problems(path, (".csv",))[0]
+    assert writable_problems(tmp_path / "new.csv", (".csv",)) == []
+
+
+def test_dollars_in_a_title_are_no_formula(result: Result, tmp_path: Path) -> None:
+    info = dataclasses.replace(result.info, title=r"from $5 to $\nonsense{6$")
+    dataclasses.replace(result, info=info).plot(tmp_path / "run.svg")
+    assert r"from $5 to $\nonsense{6$" in (tmp_path / "run.svg").read_text()

@@ -252,3 +252,65 @@ def test_overrides_are_checked_like_the_file() -> None:
     with pytest.raises(ScenarioError) as caught:
         Scenario.load("fligiel").with_overrides({"driveline.joint1.angle": "91 deg", "scene.stop": 1, "engin.x": 2})
     assert {p.key for p in caught.value.problems} == {"driveline.joint1.angle", "scene.stop", "engin"}
+
+
+def test_empty_tables_in_the_driveline_are_reported() -> None:
+    assert one(driveline={"joint1.angle": {}}).key == "driveline.joint1.angle"
+    found = one(driveline={"joint1": {"angel": {}}})
+    assert (found.key, found.nearest) == ("driveline.joint1.angel", "joint1.angle")
+
+
+def test_the_inertia_of_a_road_vehicle_is_not_given_twice() -> None:
+    with pytest.raises(ScenarioError, match="leave one out") as caught:
+        Scenario.from_dict({**GOOD, "load": {"type": "road", "mass": 1000, "wheel_radius": 0.3},
+                            "driveline": {"output.inertia": 1}})
+    assert [p.key for p in caught.value.problems] == ["driveline.output.inertia"]
+
+
+@pytest.mark.parametrize("value", [10**400, -10**5000, "1 km999", "\u00b2", "\u0663"],
+                         ids=["large", "huge", "power", "square", "arabic"])
+def test_numbers_that_python_cannot_take_are_reported(value: Any) -> None:
+    assert one(scene={"stop_time": value}).key == "scene.stop_time"
+    assert one(scene={"sweeps": value}).key == "scene.sweeps"
+    assert one(driveline={"joint1.angle": value}).key == "driveline.joint1.angle"
+    assert one(driveline={"model.fidelity": value}).key == "driveline.model.fidelity"
+    assert [p.value for p in problems(scene={"sweeps": value})] != [""]
+
+
+def test_driveline_variables_outside_their_table() -> None:
+    for name, hint in (("joint1.angle", "joint1.angle"), ("joint1.angel", "joint1.angle")):
+        with pytest.raises(ScenarioError, match=f"did you mean 'driveline.{hint}'") as caught:
+            Scenario.from_dict(GOOD).with_overrides({name: "10 deg"})
+        assert [p.key for p in caught.value.problems] == [name]
+
+
+def test_a_driver_needs_an_engine_with_a_throttle(tmp_path: Path) -> None:
+    (tmp_path / "s.csv").write_text("t,speed [km/h]\n0,0\n10,36\n")
+    scene: dict[str, Any] = {"scene": {"stop_time": 1.0}, "load": {"type": "road", "mass": 1000, "wheel_radius": 0.3},
+                             "driver": {"file": "s.csv"}, "engine": {"type": "constant", "torque": 1.0}}
+    with pytest.raises(ScenarioError, match="throttle"):
+        Scenario.from_dict(scene, tmp_path)
+    scene["engine"] = {"type": "map", "speeds": [0, 1], "throttles": [0, 1], "torques": [[0, 0], [1, 1]]}
+    driver = Scenario.from_dict(scene, tmp_path).driver
+    assert driver is not None and driver.target(5.0)[0] == pytest.approx(5.0)
+
+
+def test_what_is_no_table_of_texts() -> None:
+    with pytest.raises(TypeError, match="dictionary of tables"):
+        Scenario.from_dict(None)  # type: ignore[arg-type]
+    assert one(scene={1: 2}).key == "scene.1"
+    with pytest.raises(TypeError, match="override"):
+        Scenario.from_dict(GOOD).with_overrides({1: 2})  # type: ignore[dict-item]
+
+
+@pytest.mark.parametrize(("load", "key"), [
+    ({"type": "power", "coefficient": 1, "exponent": 2, "reference": 1e-300}, "load.reference"),
+    ({"type": "road", "mass": 1, "wheel_radius": 1, "wheel_inertia": 1, "axle_ratio": 1e-300}, "load.axle_ratio"),
+    ({"type": "road", "mass": 1, "wheel_radius": 1e200}, "load"),
+    ({"type": "dyno", "speed": 1, "gain": 1, "integral_gain": 1, "torque_limit": 1, "rounding": 1e-300},
+     "load.rounding"),
+])
+def test_values_that_leave_the_range_of_numbers_are_reported(load: dict[str, Any], key: str) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        Scenario.from_dict({**GOOD, "load": load})
+    assert [p.key for p in caught.value.problems] == [key]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from cardan.units import UnitError, examples, from_si, parse_unit, to_si
+from cardan.units import UnitError, examples, from_si, parse_unit, split_heading, to_si
 from cardan_kernel.variables import UNITS, VARIABLES
 from hypothesis import given
 from hypothesis import strategies as st
@@ -113,3 +113,22 @@ def test_display_and_back(value: float, unit: str) -> None:
 def test_display_unit_of_another_dimension_is_refused() -> None:
     with pytest.raises(UnitError, match="'kg' is no unit for 'rad/s'"):
         from_si(1.0, "rad/s", "kg")
+
+
+@pytest.mark.parametrize("text", ["1 km999", "1 1/mm999", "1 km100.km100", "1 m" + "9" * 5000, "1 mm400/mm400",
+                                  "\u0663", "\u00b2", "\u0131nf"])
+def test_numbers_beyond_floats_and_foreign_digits_are_refused(text: str) -> None:
+    with pytest.raises(UnitError):
+        to_si(text, "m")
+
+
+def test_whole_numbers_beyond_floats_are_refused() -> None:
+    for value in (10**400, -10**5000):
+        with pytest.raises(UnitError, match="beyond"):
+            to_si(value, "m")
+
+
+def test_headings() -> None:
+    assert split_heading(" T [kN.m] ") == ("T", "kN.m")
+    assert split_heading("T") == ("T", "")
+    assert split_heading("T[0] x") == ("T[0] x", "")

@@ -72,16 +72,19 @@ def fmu_peers(instance: Instance) -> list[Peer]:
             instance.setup(0.0, float(points[-1]), tolerance)
             instance.initialize()
             values, write, step, read = inputs.values, inputs.write, instance.step, outputs.read
-            rows = [tuple(read())]
+            seen = read()
+            first, second = [seen[0]], [seen[1]]
             begin = time.process_time()
             for t, h in spans:
                 values[0], values[1] = TORQUE, RESISTANCE
                 write()
                 step(t, h)
-                rows.append(tuple(read()))
+                seen = read()
+                first.append(seen[0])
+                second.append(seen[1])
             seconds = time.process_time() - begin
             evaluations = float(instance.get("solver.evaluations"))
-            return Solution(points, np.array(rows).T[:2], seconds, evaluations)
+            return Solution(points, np.array([first, second]), seconds, evaluations)
 
         return Peer(name, solve)
 

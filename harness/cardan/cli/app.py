@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import json
+import sys
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from cardan.cli.bench import bench
 from cardan.cli.build import build
@@ -18,9 +21,24 @@ from cardan.cli.scenes import scenes
 from cardan.cli.simulate import simulate
 from cardan.cli.stability import stability
 
+
+class _Commands(TyperGroup):
+    """Gives usage errors as JSON too where JSON is asked for."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except Exception as error:
+            # Typer shows the error on stderr. Its class comes from Click, which newer versions of Typer hold inside.
+            said = getattr(error, "format_message", None)
+            if said is not None and "--json" in sys.argv:
+                typer.echo(json.dumps({"completed": False, "errors": [said()]}))
+            raise
+
+
 # Plain help texts: importing rich for them would double the time of `cardan --help`.
-app = typer.Typer(no_args_is_help=True, add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
-                  context_settings={"help_option_names": ["-h", "--help"]})
+app = typer.Typer(cls=_Commands, no_args_is_help=True, add_completion=False, rich_markup_mode=None,
+                  pretty_exceptions_enable=False, context_settings={"help_option_names": ["-h", "--help"]})
 for command, summary in (
     (simulate, "Run a scene; write result and picture."),
     (linearize, "Frequency response about the steady state."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import tomllib
 from collections.abc import Iterator
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cardan.cli.failures import collected, expected_errors, refuse
+from cardan.errors import CardanError
 
 if TYPE_CHECKING:
     from cardan.result import Result
@@ -34,20 +36,27 @@ def simulate(
 ) -> None:
     """Run a scene and print a summary.
 
-    Exit code 0: complete. 1: the run failed or ended early; what was recorded is kept. 2: bad input, nothing written.
+    Exit code 0: complete. 1: the run failed or ended early, and what was recorded is kept; or a file could not be
+    written. 2: bad input, nothing written.
     """
     with expected_errors(as_json):
         scenario = _checked(scene, output, plot, changes or [], fmu, stop_time)
         result, interrupted = _run(scenario, fmu)
-        files = _write(result, output, plot)
-    if as_json:
-        typer.echo(json.dumps({**result.summary(), "files": files}))
-    else:
-        from cardan.cli.summary import print_summary
+    # From here on there is a run, which no error may lose.
+    files, errors = _write(result, output, plot)
+    try:
+        if as_json:
+            typer.echo(json.dumps({**result.summary(), "files": files, **({"errors": errors} if errors else {})}))
+        else:
+            from cardan.cli.summary import print_summary
 
-        print_summary(result, files)
-    if not result.info.completed:
-        typer.echo(f"error: the run ended at t = {result.info.reached_time:.6g} s: {result.info.message}", err=True)
+            print_summary(result, files)
+    finally:  # even where stdout takes nothing
+        if not result.info.completed:
+            errors.append(f"the run ended at t = {result.info.reached_time:.6g} s: {result.info.message}")
+        for error in errors:
+            typer.echo(f"error: {error}", err=True)
+    if errors:
         raise typer.Exit(130 if interrupted else 1)
 
 
@@ -57,6 +66,7 @@ def _checked(scene: str, output: Path | None, plot: Path | None, changes: list[s
     from cardan.archive import open_archive
     from cardan.plots import PICTURES
     from cardan.scenario import Scenario
+    from cardan.scenario.shipped import find
     from cardan.storage import FORMATS, writable_problems
 
     problems: list[str] = []
@@ -66,16 +76,30 @@ def _checked(scene: str, output: Path | None, plot: Path | None, changes: list[s
         scenario = Scenario.load(scene)
         if overrides:
             scenario = scenario.with_overrides(overrides)
+    read = [find(scene), *([fmu] if fmu is not None else [])]
+    if scenario is not None:
+        read += _files_of((scenario.engine, scenario.load_model, scenario.driver))
     if output is not None:
-        problems += writable_problems(output, FORMATS)
+        problems += writable_problems(output, FORMATS, read)
     if plot is not None:
-        problems += writable_problems(plot, PICTURES)
+        problems += writable_problems(plot, PICTURES, read)
     if fmu is not None:
         with collected(problems):
             open_archive(fmu).close()
     refuse(problems)
     assert scenario is not None
     return scenario
+
+
+def _files_of(part: object) -> list[Path]:
+    """Return the files that models are made from, in whatever key they stand."""
+    if isinstance(part, Path):
+        return [part]
+    if isinstance(part, (list, tuple)):
+        return [path for item in part for path in _files_of(item)]
+    if dataclasses.is_dataclass(part):
+        return [path for entry in dataclasses.fields(part) for path in _files_of(getattr(part, entry.name))]
+    return []
 
 
 def read_overrides(changes: list[str], stop_time: str | None, problems: list[str]) -> dict[str, Any]:
@@ -123,8 +147,8 @@ def progress_bar(title: str) -> Iterator[Progress | None]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    bar = Progress(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
-                   console=Console(stderr=True), transient=True)
+    bar = Progress(TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(),
+                   TimeRemainingColumn(), console=Console(stderr=True), transient=True)
     task = bar.add_task(title, total=1.0)
 
     def update(fraction: float) -> None:
@@ -137,12 +161,18 @@ def progress_bar(title: str) -> Iterator[Progress | None]:
         bar.stop()
 
 
-def _write(result: Result, output: Path | None, plot: Path | None) -> dict[str, str]:
-    files = {}
-    if output is not None:
-        result.save(output)
-        files["result"] = str(output)
-    if plot is not None:
-        result.plot(plot)
-        files["plot"] = str(plot)
-    return files
+def _write(result: Result, output: Path | None, plot: Path | None) -> tuple[dict[str, str], list[str]]:
+    """Try each file; return those that were written, and what went wrong with the others."""
+    files: dict[str, str] = {}
+    errors: list[str] = []
+    for kind, path, write in (("result", output, result.save), ("plot", plot, result.plot)):
+        if path is None:
+            continue
+        try:
+            write(path)
+            files[kind] = str(path)
+        except CardanError as error:
+            errors.append(str(error))
+        except Exception as error:  # a library's own, which must cost neither the other file nor the summary
+            errors.append(f"{path} cannot be written: {type(error).__name__}: {error}")
+    return files, errors

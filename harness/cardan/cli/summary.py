@@ -6,10 +6,14 @@ import math
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
+from rich.measure import Measurement
 from rich.table import Table
+from rich.text import Text
 
 from cardan.result import Result
 
+HEADINGS = ["quantity", "unit", "min", "max", "mean", "final"]
+BOUNDLESS = 10_000  # characters: wider than any table
 NOTHING = 1e-12  # of the largest figure of a quantity
 
 
@@ -24,21 +28,32 @@ def print_summary(result: Result, files: dict[str, str]) -> None:
         What was written where.
     """
     info = result.info
-    console = Console(highlight=False)
-    table = Table(title=info.title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False,
-                  padding=(0, 0, 0, 1))
-    for heading in ("quantity", "unit"):
-        table.add_column(heading, no_wrap=True)
-    for heading in ("min", "max", "mean", "final"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    console = Console(highlight=False, markup=False, emoji=False)  # titles and names stand as they are
+    rows = []
     for name, figures in result.figures().items():
         unit, factor = result.shown(name)
         shown = [figures[key] for key in ("min", "max", "mean", "final")]
         dust = NOTHING * max(abs(value) for value in shown)  # rounding around zero
-        table.add_row(name, unit, *(_number(0.0 if abs(value) <= dust else factor * value) for value in shown))
-    console.print(table)
+        rows.append([name, unit, *(_number(0.0 if abs(value) <= dust else factor * value) for value in shown)])
+    if info.title:
+        console.print(Text(info.title, style="bold"), soft_wrap=True)
+    _print_rows(console, rows)
     for label, text in _lines(result, files):
         console.print(f"{label:<16} {text}", soft_wrap=True, markup=False)
+
+
+def _print_rows(console: Console, rows: list[list[str]]) -> None:
+    """Print a table; plain lines where the console is too narrow for it, since a figure cut short is a wrong one."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, padding=(0, 0, 0, 1))
+    for place, heading in enumerate(HEADINGS):
+        table.add_column(heading, justify="left" if place < 2 else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*map(Text, row))
+    if Measurement.get(console, console.options.update_width(BOUNDLESS), table).maximum <= console.width:
+        console.print(table)
+        return
+    for line in [HEADINGS, *rows]:
+        console.print(Text(" ".join(line)), soft_wrap=True)
 
 
 def _number(value: float) -> str:

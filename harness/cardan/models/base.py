@@ -131,6 +131,10 @@ class Model:
         """Return the prescribed input speed (rad/s) and its first and second time derivative (drive = 1)."""
         raise NotImplementedError(f"model {self.kind!r} prescribes no speed")
 
+    def takes_throttle(self) -> bool:
+        """Return whether the torque depends on the throttle, so that a driver can act through it."""
+        return False
+
     def time_scale(self) -> float:
         """Return the longest admissible sub-step of the model's own states, s."""
         return INFINITY

@@ -38,7 +38,7 @@ class Clutch:
     capacity: float = quantity("N.m", "largest torque, on the engine side", above=0.0)
     engage_speed: float = quantity("rad/s", "engine speed at which the capacity leaves zero", minimum=0.0)
     full_speed: float = quantity("rad/s", "engine speed at which the capacity is full", above=0.0)
-    slip_speed: float = quantity("rad/s", "slip over which the torque builds up", 20.0, above=0.0)
+    slip_speed: float = quantity("rad/s", "slip over which the torque builds up", 20.0, minimum=1e-6)
 
     def __post_init__(self) -> None:
         check_ranges(self)

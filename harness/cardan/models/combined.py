@@ -42,6 +42,9 @@ class Combined(Model):
         n = self._split
         return self.first.value(t, x[:n], shaft, bus) + self.second.value(t, x[n:], shaft, bus)
 
+    def takes_throttle(self) -> bool:
+        return self.first.takes_throttle() or self.second.takes_throttle()
+
     def time_scale(self) -> float:
         return min(self.first.time_scale(), self.second.time_scale())
 

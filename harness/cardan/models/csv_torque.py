@@ -22,14 +22,14 @@ class CsvTorque(Model):
 
     kind: ClassVar[str] = "csv"
     file: Path = file("CSV file with a header line")
-    column: str = words("name of the torque column")
-    time_column: str = words("name of the time column in s; the first column if empty", "")
+    column: str = words("name of the torque column, N.m unless its heading has a unit: T [kN.m]")
+    time_column: str = words("name of the time column, s unless its heading has a unit; the first if empty", "")
     interpolation: str = choice(("pchip", "linear"), "between the rows", "pchip")
     factor: float = quantity("1", "factor on the column, to N.m", 1.0)
     _curve: Curve = field(init=False, repr=False)
 
     def prepare(self) -> None:
-        times, values = read_columns(self.file, self.time_column, self.column)
+        times, values = read_columns(self.file, self.time_column, self.column, "N.m")
         self.put(_curve=Curve(times, [self.factor * v for v in values], self.interpolation == "pchip"))
 
     def torque(self, t: float, x: State, shaft: Shaft, bus: Bus) -> Torque:

@@ -28,15 +28,15 @@ class Cylinder:
     chapter 9), so the firing torque scales with the mean torque and the motoring torque does not.
     """
 
-    stroke: float = quantity("m", "piston stroke", above=0.0)
-    bore: float = quantity("m", "cylinder bore", above=0.0)
-    rod: float = quantity("m", "length of the connecting rod", above=0.0)
+    stroke: float = quantity("m", "piston stroke", minimum=1e-6)
+    bore: float = quantity("m", "cylinder bore", minimum=1e-6)
+    rod: float = quantity("m", "length of the connecting rod", minimum=1e-6)
     reciprocating_mass: float = quantity("kg", "piston, pin and the rod's share, per cylinder", minimum=0.0)
     compression_ratio: float = quantity("1", "largest by smallest volume", 16.0, above=1.0, maximum=40.0)
     intake_pressure: float = quantity("Pa", "absolute pressure at the start of compression", ATMOSPHERE, minimum=0.0)
     polytropic_exponent: float = quantity("1", "of compression and expansion", 1.33, above=1.0, maximum=1.67)
     burn_start: float = quantity("rad", "crank angle from firing top dead centre", -0.1, minimum=-1.5, maximum=1.0)
-    burn_duration: float = quantity("rad", "crank angle", 1.2, above=0.0, maximum=2.0)
+    burn_duration: float = quantity("rad", "crank angle", 1.2, minimum=1e-6, maximum=2.0)
     orders: int = integer("number of multiples of n/2 kept", 6, minimum=1, maximum=40)
 
     def __post_init__(self) -> None:

@@ -30,23 +30,23 @@ class Driver(Model):
 
     kind: ClassVar[str] = "schedule"
     file: Path = file("CSV file with a header line")
-    column: str = words("name of the speed column, m/s", "speed")
-    time_column: str = words("name of the time column in s; the first column if empty", "")
+    column: str = words("name of the speed column, m/s unless its heading has a unit: v [km/h]", "speed")
+    time_column: str = words("name of the time column, s unless its heading has a unit; the first if empty", "")
     interpolation: str = choice(("linear", "pchip"), "of the schedule between its rows", "linear")
-    gain: float = quantity("s/m", "pedal per speed error", 0.3, above=0.0)
+    gain: float = quantity("s/m", "pedal per speed error", 0.3, minimum=1e-6)
     integral_gain: float = quantity("1/m", "pedal per time integral of the speed error", 0.05, above=0.0)
     feed_forward: float = quantity("s2/m", "pedal per scheduled acceleration", 0.0, minimum=0.0)
     preview: float = quantity("s", "how far the driver looks ahead", 0.0, minimum=0.0, maximum=10.0)
-    pedal_lag: float = quantity("s", "time constant of the foot", 0.15, above=0.0)
+    pedal_lag: float = quantity("s", "time constant of the foot", 0.15, minimum=1e-6)
     hold_brake: float = quantity("1", "brake at a scheduled standstill", 0.3, minimum=0.0, maximum=1.0)
-    hold_speed: float = quantity("m/s", "scheduled speed at which that brake is gone", 0.5, above=0.0)
-    rounding: float = quantity("1", "pedal over which limits and zero are rounded", 0.02, above=0.0, maximum=0.5)
+    hold_speed: float = quantity("m/s", "scheduled speed at which that brake is gone", 0.5, minimum=1e-6)
+    rounding: float = quantity("1", "pedal over which limits and zero are rounded", 0.02, minimum=1e-6, maximum=0.5)
     travel: float = 1.0  # m of road per rad of output shaft, from the load
     _curve: Curve = field(init=False, repr=False)
     _ahead: Curve = field(init=False, repr=False)  # the same, seen `preview` early
 
     def prepare(self) -> None:
-        times, speeds = read_columns(self.file, self.time_column, self.column)
+        times, speeds = read_columns(self.file, self.time_column, self.column, "m/s")
         if min(speeds) < 0.0:
             raise ParameterError("column", self.column, f"has a negative speed ({min(speeds):g} m/s)", ">= 0 m/s")
         smooth = self.interpolation == "pchip"

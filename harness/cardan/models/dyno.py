@@ -17,13 +17,13 @@ class Dyno(Model):
 
     kind: ClassVar[str] = "dyno"
     speed: float = quantity("rad/s", "speed to hold (before a ramp)")
-    gain: float = quantity("N.m.s/rad", "kp, torque per speed error", above=0.0)
+    gain: float = quantity("N.m.s/rad", "kp, torque per speed error", minimum=1e-6)
     integral_gain: float = quantity("N.m/rad", "ki, torque per time integral of the speed error", minimum=0.0)
-    torque_limit: float = quantity("N.m", "largest torque in either direction", above=0.0)
-    rounding: float = quantity("N.m", "torque over which the limits are rounded", 2.0, above=0.0)
+    torque_limit: float = quantity("N.m", "largest torque in either direction", minimum=1e-6)
+    rounding: float = quantity("N.m", "torque over which the limits are rounded", 2.0, minimum=1e-6)
     final_speed: float | None = quantity("rad/s", "speed after a ramp", None)
     ramp_start: float = quantity("s", "start of the ramp", 0.0)
-    ramp_time: float = quantity("s", "duration of the ramp", 1.0, above=0.0)
+    ramp_time: float = quantity("s", "duration of the ramp", 1.0, minimum=1e-6)
     shape: str = choice(("linear", "smooth"), "straight ramp, or quintic with continuous acceleration", "linear")
     initial_torque: float = quantity("N.m", "integral part at start", 0.0)
     _program: SpeedProgram = field(init=False, repr=False)

@@ -104,6 +104,9 @@ class ForeignFmu(Model):
                 found.append((ours, its, _factor(f"names.{ours}", variable, unit)))
         return tuple(found)
 
+    def takes_throttle(self) -> bool:
+        return any(ours == "throttle" for ours, _, _ in self.inputs)
+
     def start(self, t: float, shaft: Shaft, bus: Bus) -> list[float]:
         from cardan.models.foreign_run import ForeignRun
 

@@ -43,6 +43,9 @@ class FourStroke(Model):
     def prepare(self) -> None:
         if self.torque_ is not None and self.map is not None:
             raise ParameterError("torque", self.torque_, "given together with a map", "one of torque and map")
+        if self.torque_ is None and self.map is None and self.cylinder is None and not self.orders:
+            raise ParameterError("torque", None, "missing: the engine would give no torque at all",
+                                 "one of torque and map; orders or cylinder for the ripple")
         fixed: dict[float, tuple[float, float]] = {}
         relative: dict[float, tuple[float, float]] = {}
         inertial: dict[float, tuple[float, float]] = {}
@@ -54,6 +57,9 @@ class FourStroke(Model):
             given = getattr(self, key)
             if given and len(given) != count:
                 raise ParameterError(key, given, f"has {len(given)} entries", f"{count}, one per order")
+        if count and not (self.amplitudes or self.relative_amplitudes):
+            raise ParameterError("orders", self.orders, "given without amplitudes",
+                                 f"amplitudes or relative_amplitudes with {count} entries")
         if len(set(self.orders)) != count or any(2.0 * k != round(2.0 * k) for k in self.orders):
             raise ParameterError("orders", self.orders, "must be different multiples of 0.5 (four strokes)")
         for given, into in ((self.amplitudes, fixed), (self.relative_amplitudes, relative)):
@@ -78,6 +84,9 @@ class FourStroke(Model):
         ripple, by_angle, own, by_mean = self._ripple(angle + self.phase, speed, mean + self.friction)
         share = 1.0 + by_mean
         return Torque(mean + ripple, share * rate + by_angle * speed, share * by_speed + own)
+
+    def takes_throttle(self) -> bool:
+        return self.map is not None
 
     def time_scale(self) -> float:
         return self.map.time_scale() if self.map is not None else super().time_scale()

@@ -25,8 +25,8 @@ class Gearbox(Model):
     kind: ClassVar[str] = "gearbox"
     ROUNDING: ClassVar[float] = 5.0  # N.m, T_0
     source: Model
-    ratios: tuple[float, ...] = quantities("1", "ratio (engine by output speed) of each gear, from first", above=0.0)
-    engine_inertia: float = quantity("kg.m2", "crank, flywheel and driving half of the clutch", above=0.0)
+    ratios: tuple[float, ...] = quantities("1", "ratio (engine by output speed) of each gear, from first", minimum=1e-6)
+    engine_inertia: float = quantity("kg.m2", "crank, flywheel and driving half of the clutch", minimum=1e-6)
     initial_speed: float = quantity("rad/s", "engine speed at start", minimum=0.0)
     clutch: Clutch = table(Clutch, "launch and shift clutch")
     shift: ShiftSchedule = table(ShiftSchedule, "shift schedule")
@@ -89,6 +89,9 @@ class Gearbox(Model):
         share = ratio * (1.0 - (1.0 - self.efficiency) * value / root)
         return Torque(ratio * (value - (1.0 - self.efficiency) * (root - self.ROUNDING)),
                       share * (by_engine * acceleration + by_closure * rate), share * ratio * by_turbine)
+
+    def takes_throttle(self) -> bool:
+        return self.source.takes_throttle()
 
     def time_scale(self) -> float:
         # half the clutch's time constant: RK4 is then accurate to 3e-4 of a transient that dies within a few steps

@@ -20,11 +20,11 @@ class IdleGovernor(Model):
 
     kind: ClassVar[str] = "idle"
     speed: float = quantity("rad/s", "idle speed")
-    gain: float = quantity("N.m.s/rad", "kp, torque per speed error", above=0.0)
+    gain: float = quantity("N.m.s/rad", "kp, torque per speed error", minimum=1e-6)
     integral_gain: float = quantity("N.m/rad", "ki, torque per time integral of the speed error", minimum=0.0)
     torque_high: float = quantity("N.m", "largest torque")
     torque_low: float = quantity("N.m", "smallest torque", 0.0)
-    rounding: float = quantity("N.m", "torque over which the limits are rounded", 2.0, above=0.0)
+    rounding: float = quantity("N.m", "torque over which the limits are rounded", 2.0, minimum=1e-6)
     initial_torque: float = quantity("N.m", "integral part at start", 0.0)
 
     def prepare(self) -> None:

@@ -83,11 +83,18 @@ class Key:
 
     def contains(self, value: float) -> bool:
         """Return whether a number is finite and inside the range."""
-        if not math.isfinite(value):
+        if not _finite(value):
             return False
         if self.minimum is not None and (value < self.minimum or (self.above and value == self.minimum)):
             return False
         return not (self.maximum is not None and (value > self.maximum or (self.below and value == self.maximum)))
+
+
+def _finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number beyond the range of floats
+        return False
 
 
 def _field(key: Key, default: Any) -> Any:
@@ -188,5 +195,5 @@ def _check_number(name: str, key: Key, value: Any) -> None:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ParameterError(key_name(name), value, "not a number", key.allowed())
     if not key.contains(value):
-        why = "out of range" if math.isfinite(value) else "not finite"
+        why = "out of range" if _finite(value) else "not finite"
         raise ParameterError(key_name(name), value, why, key.allowed())

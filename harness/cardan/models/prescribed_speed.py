@@ -22,7 +22,7 @@ class PrescribedSpeed(Model):
     speed: float = quantity("rad/s", "input speed (before a ramp)")
     final_speed: float | None = quantity("rad/s", "input speed after a ramp", None)
     ramp_start: float = quantity("s", "start of the ramp", 0.0)
-    ramp_time: float = quantity("s", "duration of the ramp", 1.0, above=0.0)
+    ramp_time: float = quantity("s", "duration of the ramp", 1.0, minimum=1e-6)
     shape: str = choice(("linear", "smooth"), "straight ramp, or quintic with continuous acceleration", "linear")
     _program: SpeedProgram = field(init=False, repr=False)
 

@@ -23,9 +23,9 @@ class RoadLoad(Model):
     """
 
     kind: ClassVar[str] = "road"
-    mass: float = quantity("kg", "vehicle mass", above=0.0)
-    wheel_radius: float = quantity("m", "rolling radius R", above=0.0)
-    axle_ratio: float = quantity("1", "output shaft speed by wheel speed", 1.0, above=0.0)
+    mass: float = quantity("kg", "vehicle mass", minimum=1e-6)
+    wheel_radius: float = quantity("m", "rolling radius R", minimum=1e-6)
+    axle_ratio: float = quantity("1", "output shaft speed by wheel speed", 1.0, minimum=1e-6)
     wheel_inertia: float = quantity("kg.m2", "of one wheel", 0.0, minimum=0.0)
     wheels: int = integer("number of wheels", 4, minimum=0, maximum=40)
     rolling: float = quantity("1", "rolling resistance by weight", 0.0, minimum=0.0)
@@ -37,7 +37,7 @@ class RoadLoad(Model):
     c: float = quantity("N.s2/m2", "C, coast-down force by speed squared", 0.0)
     grade: float = quantity("1", "slope of the road, positive uphill", 0.0, minimum=-1.0, maximum=1.0)
     brake_force: float = quantity("N", "largest force of the friction brakes", 0.0, minimum=0.0)
-    standstill_speed: float = quantity("m/s", "v0, smoothing of friction at standstill", 0.1, above=0.0)
+    standstill_speed: float = quantity("m/s", "v0, smoothing of friction at standstill", 0.1, minimum=1e-6)
     travel: float = field(init=False, repr=False)  # m of road per rad of output shaft
     inertia: float = field(init=False, repr=False)  # kg.m2 at the output shaft
     _dry: float = field(init=False, repr=False)

@@ -40,7 +40,7 @@ class PowerLoad(Model):
     kind: ClassVar[str] = "power"
     coefficient: float = quantity("N.m", "torque at the reference speed")
     exponent: float = quantity("1", "exponent of the speed", minimum=1.0, maximum=12.0)
-    reference: float = quantity("rad/s", "reference speed", 1.0, above=0.0)
+    reference: float = quantity("rad/s", "reference speed", 1.0, minimum=1e-6)
 
     def torque(self, t: float, x: State, shaft: Shaft, bus: Bus) -> Torque:
         speed = shaft.speed / self.reference

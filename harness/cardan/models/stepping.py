@@ -16,6 +16,15 @@ RESULT = (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84)
 ERROR = (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40)
 
 SMALLEST = 1e-9  # of a communication step: below it the step is taken as it is
+MOST = 100_000  # sub-steps per communication step: a run that needs more would seem to hang
+REACH = 16.0  # a decay whose time scale is 0.2 tau lets the method with error control take steps of 3.3 tau
+
+
+def too_many(step: float, span: float) -> ArithmeticError:
+    """Return the error for sub-steps of `step` (s) in a communication step of `span` (s)."""
+    return ArithmeticError(f"the models' own states need more than {MOST} sub-steps of {step:.3g} s in a communication "
+                           f"step of {span:.3g} s: look at lag, engine_inertia, slip_speed, pedal_lag and the gains of "
+                           f"the models, or take a shorter communication_step")
 
 
 def controlled(derivative: Derivative, span: float, x: list[float], scales: list[float], tolerance: float,
@@ -41,10 +50,15 @@ def controlled(derivative: Derivative, span: float, x: list[float], scales: list
     -------
     list of float, float
         States at the end, and the step to begin the next communication step with.
+
+    Raises
+    ------
+    ArithmeticError
+        If more than `MOST` steps are needed.
     """
-    s = 0.0
+    s = d = 0.0
     first = derivative(0.0, x)
-    while True:
+    for _ in range(MOST):
         left = span - s
         last = h >= left * (1.0 - 1e-12)
         d = left if last else (0.5 * left if 2.0 * h > left else h)
@@ -70,10 +84,13 @@ def controlled(derivative: Derivative, span: float, x: list[float], scales: list
         if last:
             return x, h
         s += d
+    raise too_many(d, span)
 
 
 def equal_steps(derivative: Derivative, span: float, x: list[float], longest: float) -> list[float]:
     """Integrate with the classic Runge-Kutta method of order 4 in equal steps no longer than `longest` (s)."""
+    if span > MOST * longest:
+        raise too_many(longest, span)
     count = max(1, math.ceil(span / longest * (1.0 - 1e-12)))
     d = span / count
     for i in range(count):

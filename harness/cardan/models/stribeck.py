@@ -23,9 +23,9 @@ class StribeckLoad(Model):
     kind: ClassVar[str] = "stribeck"
     sliding: float = quantity("N.m", "Tc, torque of sliding friction", minimum=0.0)
     breakaway: float = quantity("N.m", "Ts, torque at breakaway", minimum=0.0)
-    stribeck_speed: float = quantity("rad/s", "ws, width of the hump", 1.0, above=0.0)
+    stribeck_speed: float = quantity("rad/s", "ws, width of the hump", 1.0, minimum=1e-6)
     viscous: float = quantity("N.m.s/rad", "b, viscous part", 0.0, minimum=0.0)
-    smoothing: float = quantity("rad/s", "w0, speed over which the sign is smoothed", 0.01, above=0.0)
+    smoothing: float = quantity("rad/s", "w0, speed over which the sign is smoothed", 0.01, minimum=1e-6)
 
     def prepare(self) -> None:
         if self.breakaway < self.sliding:

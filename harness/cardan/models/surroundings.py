@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from cardan.models.base import INFINITY, Bus, Discrete, Model, Shaft, Torque
 from cardan.models.driver import Driver
-from cardan.models.stepping import controlled, equal_steps
+from cardan.models.stepping import MOST, REACH, controlled, equal_steps, too_many
 
 Motion = Callable[[float], Shaft]  # s in [0, h] since the start of the step -> motion of a shaft end
 
@@ -60,6 +60,8 @@ class Surroundings:
         self._members: list[Model] = [m for m in (self.driver, self.engine, self.load) if m is not None]
         self.step: float = min(m.time_scale() for m in self._members) / refine
         self.tolerance = tolerance
+        # of the scene: a coupling that cuts it into ever shorter ones would come round the limit of each
+        self._whole: float = getattr(scenario, "communication_step", 0.0)
         self._scales = [1e-3] * len(self.states)
         self._next = self.step
         self.signals: dict[str, str] = {}
@@ -109,9 +111,16 @@ class Surroundings:
             Start and length of the step, s.
         motion_in, motion_out : callable
             s in [0, h] -> `Shaft`, motion of the input and of the output end.
+
+        Raises
+        ------
+        ArithmeticError
+            If the own states need more sub-steps than `cardan.models.stepping.MOST`.
         """
         if not self.x:
             return
+        if self._whole > REACH * MOST * self.step:
+            raise too_many(self.step, self._whole)
 
         def derivative(s: float, x: list[float]) -> list[float]:
             return self._derivative(t + s, x, motion_in(s), motion_out(s))

@@ -53,5 +53,8 @@ class TorqueMap(Model):
     def value(self, t: float, x: State, shaft: Shaft, bus: Bus) -> float:
         return x[0] if self.lag > 0.0 else self._surface(shaft.speed, bus.throttle)[0]
 
+    def takes_throttle(self) -> bool:
+        return True
+
     def time_scale(self) -> float:
         return 0.2 * self.lag if self.lag > 0.0 else super().time_scale()

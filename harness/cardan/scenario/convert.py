@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -67,6 +68,9 @@ class Reader:
             return kind(**values)
         except ParameterError as error:
             self.collector.add(f"{path}.{error.key}", error.value, error.why, error.allowed)
+        except ArithmeticError as error:
+            # each value may be allowed, but not with the others: no arithmetic is left unguarded for that
+            self.collector.add(path, None, f"the values of [{path}] are too large or too small together: {error}")
         return None
 
     def value(self, key: Key, raw: Any, path: str) -> Any:
@@ -75,6 +79,9 @@ class Reader:
 
     def number(self, raw: Any, unit: str, path: str) -> Any:
         """Return a number in SI, or `INVALID`."""
+        if isinstance(raw, int) and not isinstance(raw, bool) and abs(raw) > sys.float_info.max:
+            self.collector.add(path, raw, "beyond the range of numbers")
+            return INVALID
         try:
             return to_si(raw, unit)
         except UnitError as error:
@@ -104,7 +111,7 @@ class Reader:
         return INVALID if INVALID in rows else tuple(rows)
 
     def _integer(self, key: Key, raw: Any, path: str) -> Any:
-        if isinstance(raw, str):
+        if isinstance(raw, str) and raw.isascii():
             with contextlib.suppress(ValueError):
                 raw = int(raw)
         if isinstance(raw, bool) or not isinstance(raw, int):
@@ -153,6 +160,24 @@ class Reader:
         assert key.table is not None and dataclasses.is_dataclass(key.table)
         made = self.build(key.table, raw, path)
         return INVALID if made is None else made
+
+
+def plain(value: Any, path: str, collector: Collector) -> Any:
+    """Return a copy with NumPy numbers and arrays as Python's own; keys that are no texts are noted as problems."""
+    if isinstance(value, Mapping):
+        made: dict[str, Any] = {}
+        for name, inner in value.items():
+            below = f"{path}.{name}" if path else str(name)
+            if isinstance(name, str):
+                made[name] = plain(inner, below, collector)
+            else:
+                collector.add(below, name, "a key must be a text")
+        return made
+    if isinstance(value, (list, tuple)):
+        items = [plain(inner, f"{path}[{i}]", collector) for i, inner in enumerate(value)]
+        return tuple(items) if isinstance(value, tuple) else items
+    # told by the module, so that reading a scene does not import NumPy
+    return value.tolist() if type(value).__module__ == "numpy" and hasattr(value, "tolist") else value
 
 
 def _like(raw: Any, names: Any) -> str:

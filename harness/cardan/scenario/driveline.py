@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from cardan.scenario.convert import INVALID, Reader
-from cardan.scenario.problems import Collector
+from cardan.scenario.problems import Collector, nearest
 from cardan.units import from_si
 
 # what the rest of the scene decides
@@ -24,10 +25,13 @@ _FIDELITIES = {"rigid": 1, "compliant": 2}
 
 
 def flatten(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield (dotted name, value) of a table whose names are quoted, nested or both."""
+    """Yield (dotted name, value) of a table whose names are quoted, nested or both.
+
+    An empty table is a value like any other: where it stands for a number it must be reported, not dropped.
+    """
     for name, value in table.items():
         full = f"{prefix}.{name}" if prefix else name
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and value:
             yield from flatten(value, full)
         else:
             yield full, value
@@ -36,6 +40,18 @@ def flatten(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
 def elsewhere(name: str) -> str:
     """Return where a variable is set if not in ``[driveline]``; empty if it is set there."""
     return next((why for known, why in _ELSEWHERE.items() if name == known or name.startswith(known + ".")), "")
+
+
+def misplaced(table: str, content: Any, collector: Collector) -> bool:
+    """Note names of driveline variables that stand outside ``[driveline]``; return whether `table` holds such."""
+    from cardan_kernel.variables import INDEX
+
+    if table.partition(".")[0] not in {name.partition(".")[0] for name in INDEX if "." in name}:
+        return False
+    for name, raw in flatten({table: content}):
+        collector.add(name, raw, f"is no key of a table {table!r}; variables of the driveline stand in [driveline]",
+                      nearest=f"driveline.{name if name in INDEX else nearest(name, INDEX)}")
+    return True
 
 
 def read_driveline(table: Mapping[str, Any], collector: Collector, reader: Reader) -> dict[str, float | int | bool]:
@@ -73,14 +89,15 @@ def _value(variable: Any, raw: Any, path: str, collector: Collector, reader: Rea
         value = reader.number(raw, variable.unit, path)
     else:
         value = _FIDELITIES.get(raw, raw) if variable.name == "model.fidelity" and isinstance(raw, str) else raw
-        if isinstance(value, str) and value.strip().isdigit():
-            value = int(value)
+        if isinstance(value, str) and value.strip().isdecimal() and value.isascii():
+            with contextlib.suppress(ValueError):  # thousands of digits
+                value = int(value)
         if isinstance(value, bool) or not isinstance(value, int):
             collector.add(path, raw, "must be a whole number", _allowed(variable))
             return INVALID
     if value is INVALID:
         return value
-    if not math.isfinite(value):
+    if isinstance(value, float) and not math.isfinite(value):
         collector.add(path, raw, "not finite", _allowed(variable))
         return INVALID
     low, high = variable.minimum, variable.maximum

@@ -49,9 +49,9 @@ def read_load(table: Mapping[str, Any] | None, collector: Collector, reader: Rea
     return model
 
 
-def read_driver(table: Mapping[str, Any] | None, load: Model | None, collector: Collector,
-                reader: Reader) -> Driver | None:
-    """Return the driver of the table, if there is one; a driver needs a road."""
+def read_driver(table: Mapping[str, Any] | None, engine: Model | None, load: Model | None,
+                collector: Collector, reader: Reader) -> Driver | None:
+    """Return the driver of the table, if there is one; a driver needs a road and an engine with a throttle."""
     if table is None:
         return None
     kind = _kind({"type": Driver.kind, **table}, "driver", DRIVERS, collector)
@@ -60,6 +60,10 @@ def read_driver(table: Mapping[str, Any] | None, load: Model | None, collector: 
     if load is not None and not isinstance(load, RoadLoad):
         collector.add("driver", None, f"a driver needs [load] type = 'road', not {load.kind!r}")
         return None
+    # noted without an early end: the driver's own problems are reported along with this one
+    if engine is not None and not engine.takes_throttle():
+        collector.add("driver", None, f"a driver needs an engine with a throttle (a map, also in four_stroke, or an "
+                      f"FMU with a throttle input), not {engine.kind!r}")
     travel = load.travel if isinstance(load, RoadLoad) else 1.0
     made: Driver | None = reader.build(kind, table, "driver", ("type",), travel=travel)
     return made

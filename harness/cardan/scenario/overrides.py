@@ -19,6 +19,8 @@ def apply_overrides(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[
     if isinstance(driveline, Mapping):
         tables["driveline"] = dict(flatten(driveline))
     for name, value in changes.items():
+        if not isinstance(name, str):
+            raise TypeError(f"the key of an override must be a text such as 'scene.stop_time', not {name!r}")
         head, _, rest = name.partition(".")
         path = [head, rest] if head == "driveline" and rest else name.split(".")
         place: Any = tables

@@ -6,6 +6,8 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from cardan.errors import CardanError
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -42,7 +44,7 @@ class Problem:
         return text + (f"; did you mean {self.nearest!r}?" if self.nearest else "")
 
 
-class ScenarioError(ValueError):
+class ScenarioError(CardanError, ValueError):
     """A scene that cannot be simulated.
 
     Attributes
@@ -83,5 +85,8 @@ def nearest(name: str, names: Iterable[str]) -> str:
 
 
 def _short(value: object) -> str:
-    text = repr(value)
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no whole number of thousands of digits
+        return "a number of thousands of digits"
     return text if len(text) <= 80 else text[:77] + "..."

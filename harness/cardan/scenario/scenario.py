@@ -14,8 +14,8 @@ from cardan.models.base import Model
 from cardan.models.driver import Driver
 from cardan.models.road import RoadLoad
 from cardan.scenario import shipped
-from cardan.scenario.convert import Reader
-from cardan.scenario.driveline import read_driveline
+from cardan.scenario.convert import Reader, plain
+from cardan.scenario.driveline import misplaced, read_driveline
 from cardan.scenario.members import read_driver, read_engine, read_load
 from cardan.scenario.outputs import read_outputs
 from cardan.scenario.overrides import apply_overrides
@@ -119,6 +119,8 @@ class Scenario:
             hint = " (a name that continues another one must be quoted: \"joint1.angle.der1\")"
             raise ScenarioError([Problem(str(path), "", "", f"is no valid TOML: {error}"
                                          + (hint if "overwrite" in str(error).lower() else ""))]) from None
+        except ValueError as error:  # a whole number of thousands of digits
+            raise ScenarioError([Problem(str(path), "", "", f"cannot be read: {error}")]) from None
         return cls.from_dict(tables, base=place.parent, source=text, name=place.stem, file=str(path))
 
     @classmethod
@@ -141,12 +143,18 @@ class Scenario:
         ------
         ScenarioError
             With everything that is wrong.
+        TypeError
+            If `tables` is no mapping.
         """
+        if not isinstance(tables, Mapping):
+            raise TypeError(f"a scene is made from a dictionary of tables, not from {type(tables).__name__}")
         collector = Collector(file or name)
         reader = Reader(collector, Path(base))
+        tables = plain(tables, "", collector)
         for table, content in tables.items():
             if table not in TABLES:
-                collector.unknown(table, None, "table", table, TABLES)
+                if not misplaced(table, content, collector):
+                    collector.unknown(table, None, "table", table, TABLES)
             elif not isinstance(content, Mapping):
                 collector.add(table, content, f"must be a table [{table}]")
         given = {t: tables[t] for t in TABLES if isinstance(tables.get(t), Mapping)}
@@ -154,7 +162,11 @@ class Scenario:
         driveline = read_driveline(given.get("driveline", {}), collector, reader)
         engine = read_engine(given.get("engine"), collector, reader)
         load = read_load(given.get("load"), collector, reader)
-        driver = read_driver(given.get("driver"), load, collector, reader)
+        driver = read_driver(given.get("driver"), engine, load, collector, reader)
+        if isinstance(load, RoadLoad) and "output.inertia" in driveline:
+            collector.add("driveline.output.inertia", driveline["output.inertia"],
+                          "given together with [load] type = 'road', which sets it from mass, wheels and axle_ratio; "
+                          "leave one out")
         members = [m for m in (driver, engine, load) if m is not None]
         complete = engine is not None and load is not None and (driver is not None or "driver" not in given)
         signals = [signal for member in members for signal in member.signals]
@@ -166,7 +178,7 @@ class Scenario:
         if engine.drive == 1:
             driveline["model.drive"] = 1
         if isinstance(load, RoadLoad):
-            driveline.setdefault("output.inertia", load.inertia)
+            driveline["output.inertia"] = load.inertia
         return cls(title=scene.title or name, stop_time=scene.stop_time, communication_step=scene.communication_step,
                    coupling=scene.coupling, tolerance=scene.tolerance, sweeps=scene.sweeps,
                    sweep_tolerance=scene.sweep_tolerance, shortest_step=scene.shortest_step, outputs=outputs,
