@@ -94,13 +94,13 @@ def test_the_integrators_errors_are_measured_again(case: str, stored: Measured) 
         assert evaluations / (1e3 * system.span) == pytest.approx(record["rhs_per_ms"], rel=0.02)
 
 
-def test_the_error_follows_the_tolerance_with_order_eight(stored: Measured) -> None:
-    """Work grows as the error to the power -1/8 on the smooth cases (DOP853)."""
+def test_the_error_follows_the_work_with_order_eight(stored: Measured) -> None:
+    """DOP853 on smooth cases: error as work to the power -8, steeper while the steps are too long for the order."""
     for case in ("ordinary", "bent", "limit"):
         coarse = found(stored, "integrator", case=case, tolerance=1e-6)
         fine = found(stored, "integrator", case=case, tolerance=1e-12)
         order = math.log(coarse["error"] / fine["error"]) / math.log(fine["rhs_per_ms"] / coarse["rhs_per_ms"])
-        assert order == pytest.approx(8.5, abs=1.0)
+        assert 8.0 < order < 10.5
 
 
 @pytest.mark.parametrize("scheme", ["held", "gauss-seidel", "linear", "slope", "hermite3", "hermite5", "iterated"])

@@ -39,7 +39,7 @@ class ScenePart(cardan_part.slave.ScenePart):
         return False  # never called: the part\'s method stands in front of it in every instance
 '''
 _IMPORTS = (
-    (re.compile(r"^from cardan\.models\b", re.MULTILINE), "from cardan_part_{tag}.models"),
+    (re.compile(r"^from cardan\.(models|units)\b", re.MULTILINE), r"from cardan_part_{tag}.\1"),
     (re.compile(r"\bcardan_part\.slave\b"), "cardan_part_{tag}.slave"),
     (re.compile(r"^from pythonfmu\b", re.MULTILINE), "from pythonfmu_{tag}"),
 )
@@ -59,6 +59,7 @@ def code(data: Mapping[str, bytes]) -> dict[str, bytes]:
     models = Path(cardan.models.base.__file__).parent
     pythonfmu = find_package("pythonfmu")
     files = {f"cardan_part/models/{path.name}": path for path in models.glob("*.py") if path.name not in _STAY_OUTSIDE}
+    files["cardan_part/units.py"] = models.parent / "units.py"  # headings of CSV columns
     files |= {f"cardan_part/{path.name}": path for path in (_HOME / "part").glob("*.py")}
     files |= {f"pythonfmu/{name}.py": pythonfmu / f"{name}.py" for name in PYTHONFMU_MODULES}
     contents = {name: path.read_bytes() for name, path in sorted(files.items())}

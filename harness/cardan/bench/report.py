@@ -47,6 +47,7 @@ def write(measured: Measured, folder: Path) -> list[Path]:
     list of Path
         The files.
     """
+    measured = Measured(**measured.to_dict())  # tables and figures show what is stored
     results, text = folder / RESULTS, folder / "report.md"
     with written_beside(results) as beside:
         measured.save(beside)

@@ -22,7 +22,7 @@ def markdown(heads: Cells, rows: Iterable[Cells]) -> str:
 
 def number(value: float | None, digits: int = 2) -> str:
     """Return a figure with few digits, without an exponent where that is readable."""
-    if value is None:
+    if value is None or not math.isfinite(value):
         return "-"
     if value == 0.0:
         return "0"
